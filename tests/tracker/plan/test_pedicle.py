@@ -9,8 +9,8 @@ import pytest
 from tests.tracker.plan.pedicles import off_by, rod_between_blocks, scanned
 from tracker.errors import NavigationError
 from tracker.geometry import rotation_from_vector
-from tracker.plan import Volume, measure_pedicle
-from tracker.plan.pedicle import axis_from_angles
+from tracker.plan import PedicleMeasure, Volume, measure_pedicle
+from tracker.plan.pedicle import Side, axis_from_angles
 from tracker.rehearsal.ct import (
     ContrastTube,
     PedicleTruth,
@@ -18,8 +18,6 @@ from tracker.rehearsal.ct import (
     ScanGrid,
     VertebraPhantom,
     pedicle_tube,
-    random_grid,
-    random_phantom,
     scan,
     usual_bones,
 )
@@ -54,6 +52,12 @@ def usual() -> tuple[VertebraPhantom, Volume]:
     return made, scan(made.hu_at, grid(noise_hu=25.0))
 
 
+@functools.cache
+def usual_measure(side: Side) -> PedicleMeasure:
+    made, volume = usual()
+    return measure_pedicle(volume, made.seed_lps_mm(side), side)
+
+
 METAL = ContrastTube(
     part=Rod(start_mm=np.array([26.0, 0.0, -30.0]), end_mm=np.array([26.0, 0.0, 30.0]), radius_mm=3.0),
     hu=3000.0,
@@ -64,15 +68,21 @@ METAL = ContrastTube(
     ("made", "voxels"),
     [
         pytest.param(phantom(), grid(noise_hu=50.0), id="noise"),
-        pytest.param(phantom(), grid((0.7, 0.7, 3.0), noise_hu=20.0), id="thick-slices"),
         pytest.param(
-            phantom(), grid(rotation=rotation_from_vector(np.radians([14.0, -9.0, 8.0]))), id="oblique-stack"
+            phantom(marrow_hu=45.0, cortex_mm=0.8, beside=(METAL,)),
+            grid(noise_hu=20.0),
+            id="osteoporotic-and-metal-beside",
         ),
-        pytest.param(phantom(), grid(gantry_tilt_deg=18.0), id="tilted-gantry"),
-        pytest.param(phantom(marrow_hu=45.0, cortex_mm=0.8), grid(noise_hu=20.0), id="osteoporotic"),
-        pytest.param(phantom(beside=(METAL,)), grid(noise_hu=20.0), id="metal-beside"),
-        pytest.param(phantom(tissue_hu=-1000.0), grid(), id="dry-bone-in-air"),
-        pytest.param(phantom(), grid((0.8, 0.5, 1.2)), id="unequal-voxels"),
+        pytest.param(
+            phantom(),
+            grid((0.7, 0.7, 3.0), noise_hu=20.0, gantry_tilt_deg=18.0),
+            id="thick-slices-tilted-gantry",
+        ),
+        pytest.param(
+            phantom(tissue_hu=-1000.0),
+            grid((0.8, 0.5, 1.2), rotation=rotation_from_vector(np.radians([14.0, -9.0, 8.0]))),
+            id="dry-bone-in-air-oblique-stack-unequal-voxels",
+        ),
     ],
 )
 def test_width_and_height_to_half_a_voxel_and_angles_to_a_degree(
@@ -86,25 +96,12 @@ def test_width_and_height_to_half_a_voxel_and_angles_to_a_degree(
     assert np.linalg.norm(measure.isthmus_lps_mm - made.truth("left").isthmus_lps_mm) < 1.5
 
 
-@pytest.mark.parametrize("seed", [1])
-def test_random_phantoms_on_both_sides(seed: int) -> None:
-    made = random_phantom(seed)
-    volume = scan(made.hu_at, random_grid(made, seed))
-    for side in ("left", "right"):
-        off = off_by(measure_pedicle(volume, made.seed_lps_mm(side), side), made.truth(side), volume)
-        assert off.is_small, (side, off)
-
-
 @pytest.mark.parametrize(
     ("rod_hu", "block_hu", "around_hu", "spacing", "seed"),
     [
-        pytest.param(800.0, 800.0, 0.0, (0.8, 0.8, 1.2), 1, id="one-material"),
         pytest.param(800.0, 300.0, 0.0, (0.8, 0.8, 1.2), 1, id="softer-blocks"),
-        # With such contrast to their surroundings, the fit takes many steps.
-        *(
-            pytest.param(350.0, 350.0, -1000.0, (0.8, 0.8, 0.8), seed, id=f"faint-rod-in-air-{seed}")
-            for seed in (1, 2, 6, 8)
-        ),
+        # With such contrast to its surroundings, the fit takes many steps.
+        pytest.param(350.0, 350.0, -1000.0, (0.8, 0.8, 0.8), 6, id="faint-rod-in-air"),
     ],
 )
 def test_a_solid_rod_without_cortex_is_measured_too(
@@ -126,20 +123,22 @@ def test_a_solid_rod_without_cortex_is_measured_too(
 def test_clicks_anywhere_in_the_pedicle_give_the_same_pedicle() -> None:
     made, volume = usual()
     widths = [
-        measure_pedicle(volume, made.seed_lps_mm("left", offset), "left").width_mm
-        for offset in ((0.0, 0.0, 0.0), (-6.0, 2.5, 0.0), (6.0, -1.0, 4.0))
+        usual_measure("left").width_mm,
+        *(
+            measure_pedicle(volume, made.seed_lps_mm("left", offset), "left").width_mm
+            for offset in ((-6.0, 2.5, 0.0), (6.0, -1.0, 4.0))
+        ),
     ]
     assert np.ptp(widths) < 0.15
     assert np.mean(widths) == pytest.approx(8.0, abs=0.25)
 
 
-def test_the_stated_sd_covers_the_error() -> None:
-    made, volume = usual()
-    for side, width in (("left", 8.0), ("right", 7.0)):
-        measure = measure_pedicle(volume, made.seed_lps_mm(side), side)
-        assert abs(measure.width_mm - width) < 4.0 * measure.sd.width_mm
-        assert measure.sd.width_mm < 0.3
-        assert measure.sd.transverse_deg < 1.0
+@pytest.mark.parametrize(("side", "width"), [("left", 8.0), ("right", 7.0)])
+def test_the_stated_sd_covers_the_error_on_both_sides(side: Side, width: float) -> None:
+    measure = usual_measure(side)
+    assert abs(measure.width_mm - width) < 4.0 * measure.sd.width_mm
+    assert measure.sd.width_mm < 0.3
+    assert measure.sd.transverse_deg < 1.0
 
 
 @pytest.mark.parametrize(
