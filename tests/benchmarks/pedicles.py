@@ -3,6 +3,7 @@
 import numpy as np
 from scipy.stats import binomtest
 
+from tests.benchmarks.pedicle_conditions import condition_tables
 from tests.benchmarks.section_result import SectionResult
 from tests.benchmarks.tables import Table
 from tests.tracker.plan.pedicles import Off, off_by
@@ -50,7 +51,8 @@ def measure_pedicles(phantoms: int = PHANTOMS) -> SectionResult:
         "sagittal deg",
         "length mm",
     ]
-    return SectionResult(tables=[Table(title="", columns=columns, rows=rows, note=note)])
+    overall = Table(title="", columns=columns, rows=rows, note=note)
+    return SectionResult(tables=[overall, *condition_tables()])
 
 
 def _row(name: str, some: list[Off]) -> list[str]:
