@@ -39,7 +39,7 @@ from tracker.plan.pedicle import Side
 from tracker.plan.screw import GertzbeinRobbins
 
 REMEDY = "Withdraw it, and state it again with the drill in place."
-TOUCH_AGAIN = "Wait for the next image, then touch again."
+WAIT = "Wait until the video runs, then touch again."
 
 log = structlog.get_logger(__name__)
 
@@ -237,6 +237,7 @@ class PlacementStep:
                 "PLACEMENT_NO_SCREW",
                 f"no screw is planned for {active.channel.name}, so its size is not known",
                 "State diameter and length of the screw.",
+                {"channel": active.channel.name},
             )
         snapshot = self._snapshot(active)
         shown = snapshot.setup.registration
@@ -244,7 +245,7 @@ class PlacementStep:
         if isinstance(shown, Absent) or not np.array_equal(
             shown.anchor_from_vertebra.matrix, expected.anchor_from_vertebra.matrix
         ):
-            raise _changed("registration")
+            raise _changed()
         record = self._record(snapshot, active, screw, is_planned=screw == planned)
         return self._store.put(
             stored.document.case_id,
@@ -269,6 +270,7 @@ class PlacementStep:
                 "PLACEMENT_UNKNOWN",
                 f"{document.title} is not a placed screw",
                 "GET /api/navigation/placements lists the placed screws.",
+                {"title": document.title_text},
             )
         self._store.withdraw(document, by=made_by, reason="the screw is not placed")
 
@@ -287,17 +289,21 @@ class PlacementStep:
         """Return the newest snapshot, which must be fresh and of this channel."""
         instant = self._hub.newest
         snapshot = None if instant is None else instant.snapshot
-        age_s = float("inf") if snapshot is None else self._clock() - snapshot.captured_at_s
-        if snapshot is None or age_s > self._max_age_s:
-            age = "there is no image" if snapshot is None else f"the newest image is {age_s:.1f} s old"
+        if snapshot is None:
+            raise SetupOrderError(
+                "PLACEMENT_NO_IMAGE", "there is no image, so the position of the drill is not known", WAIT
+            )
+        age_s = self._clock() - snapshot.captured_at_s
+        if age_s > self._max_age_s:
             raise SetupOrderError(
                 "PLACEMENT_NO_IMAGE",
-                f"{age}, so the position of the drill is not known",
-                "Wait until the video runs, then touch again.",
+                f"the newest image is {age_s:.1f} s old, so the position of the drill is not known",
+                WAIT,
+                {"age_s": age_s},
             )
         channel = snapshot.setup.channel
         if isinstance(channel, Absent) or not is_same_channel(channel, active.channel):
-            raise _changed("channel")
+            raise _changed()
         return snapshot
 
     def _record(
@@ -307,10 +313,12 @@ class PlacementStep:
         pose = snapshot.vertebra_from_tool(tool) if tool else None
         assessment = snapshot.assessments.get(tool)
         if pose is None or isinstance(pose, Absent) or not isinstance(assessment, Assessment):
+            reason = _reason(snapshot)
             raise SetupOrderError(
                 "PLACEMENT_NO_NUMBERS",
-                f"the newest image does not show where the drill is in the bone ({_reason(snapshot)})",
+                f"the newest image does not show where the drill is in the bone ({reason})",
                 "Complete the steps that are due, hold drill and markers in view, then touch again.",
+                {"reason": reason},
             )
         placed = PlacedScrew.on_drill(active.channel, pose, screw)
         analysis = snapshot.analyses[tool]
@@ -362,11 +370,11 @@ def _reason(snapshot: NavigationSnapshot) -> str:
     return ", ".join(sorted(absent)) or "no tool"
 
 
-def _changed(what: str) -> SetupOrderError:
+def _changed() -> SetupOrderError:
     return SetupOrderError(
         "PLACEMENT_SETUP_CHANGED",
-        f"the newest image was computed with another {what} than that of the case",
-        TOUCH_AGAIN,
+        "the newest image was computed with another channel or registration than the case has now",
+        WAIT,
     )
 
 

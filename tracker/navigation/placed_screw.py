@@ -13,6 +13,7 @@ from tracker.plan import Channel
 MAX_ANGLE_DEG = 45.0
 # Entries of left and right channel are about 30 mm apart: farther than this, another channel was drilled.
 MAX_ENTRY_OFFSET_MM = 10.0
+ELSEWHERE = "Select the channel that was drilled, or place the drill in this one."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,20 +47,29 @@ class PlacedScrew:
         cosine = float(direction @ channel.axis_in_vertebra)
         angle_deg = float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))
         if angle_deg > MAX_ANGLE_DEG:
-            raise _elsewhere(channel, f"is at {angle_deg:.0f} deg to", f"{MAX_ANGLE_DEG:.0f} deg")
-        depth_mm = float((tip - channel.entry_in_vertebra_mm) @ channel.axis_in_vertebra)
-        if depth_mm <= 0.0:
+            raise InvalidInput(
+                "DRILL_NOT_IN_CHANNEL",
+                f"the drill is at {angle_deg:.0f} deg to {channel.name}, the limit is {MAX_ANGLE_DEG:g} deg",
+                ELSEWHERE,
+                {"channel": channel.name, "angle_deg": angle_deg, "max_angle_deg": MAX_ANGLE_DEG},
+            )
+        before_mm = float((channel.entry_in_vertebra_mm - tip) @ channel.axis_in_vertebra)
+        if before_mm >= 0.0:
             raise InvalidInput(
                 "DRILL_NOT_IN_BONE",
-                f"the tip is {-depth_mm:.1f} mm before the entry of {channel.name}",
+                f"the tip is {before_mm:.1f} mm before the entry of {channel.name}",
                 "Place the drill or screwdriver in the channel, then touch again.",
-                {"depth_mm": depth_mm},
+                {"channel": channel.name, "before_mm": before_mm},
             )
-        head = tip - direction * (depth_mm / cosine)
+        head = tip + direction * (before_mm / cosine)
         offset_mm = float(np.linalg.norm(head - channel.entry_in_vertebra_mm))
         if offset_mm > MAX_ENTRY_OFFSET_MM:
-            raise _elsewhere(
-                channel, f"is {offset_mm:.1f} mm from the entry of", f"{MAX_ENTRY_OFFSET_MM:g} mm"
+            raise InvalidInput(
+                "DRILL_NOT_IN_CHANNEL",
+                f"the axis of the drill is {offset_mm:.1f} mm from the entry of {channel.name}, "
+                f"the limit is {MAX_ENTRY_OFFSET_MM:g} mm",
+                ELSEWHERE,
+                {"channel": channel.name, "offset_mm": offset_mm, "max_offset_mm": MAX_ENTRY_OFFSET_MM},
             )
         return cls(
             name=channel.name,
@@ -67,12 +77,3 @@ class PlacedScrew:
             tip_in_vertebra_mm=head + direction * screw.length_mm,
             radius_mm=screw.radius_mm,
         )
-
-
-def _elsewhere(channel: Channel, what: str, limit: str) -> InvalidInput:
-    return InvalidInput(
-        "DRILL_NOT_IN_CHANNEL",
-        f"the axis of the drill {what} {channel.name}, the limit is {limit}",
-        "Select the channel that was drilled, or place the drill in this one.",
-        {"channel": channel.name},
-    )

@@ -77,6 +77,24 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "de": "der Kanal wurde nicht auf dem neuesten CT dieses Falls geplant",
         },
     ),
+    "DRILL_NOT_IN_BONE": (
+        {
+            "en": "the tip is {before_mm:.1f} mm before the entry of {channel}",
+            "de": "die Spitze ist {before_mm:.1f} mm vor dem Eintritt von {channel}",
+        },
+    ),
+    "DRILL_NOT_IN_CHANNEL": (
+        {
+            "en": "the drill is at {angle_deg:.0f} deg to {channel}, the limit is {max_angle_deg:g} deg",
+            "de": "der Bohrer steht {angle_deg:.0f} Grad zu {channel}, Grenze {max_angle_deg:g} Grad",
+        },
+        {
+            "en": "the axis of the drill is {offset_mm:.1f} mm from the entry of {channel}, "
+            "the limit is {max_offset_mm:g} mm",
+            "de": "die Achse des Bohrers ist {offset_mm:.1f} mm vom Eintritt von {channel} entfernt, "
+            "Grenze {max_offset_mm:g} mm",
+        },
+    ),
     "HOLD_NOT_YOURS": (
         {
             "en": "the hold was requested by {by}, not by {person}",
@@ -168,6 +186,44 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "en": "there is no image in which needles could be detected",
             "de": "es gibt kein Bild, in dem Nadeln gesucht werden könnten",
         },
+    ),
+    "PLACEMENT_NO_CHANNEL": (
+        {
+            "en": "no channel is active, so it is not known which screw was placed",
+            "de": "kein Kanal ist gewählt, daher ist unbekannt, welche Schraube gesetzt wurde",
+        },
+    ),
+    "PLACEMENT_NO_IMAGE": (
+        {
+            "en": "there is no image, so the position of the drill is not known",
+            "de": "es gibt kein Bild, daher ist die Lage des Bohrers unbekannt",
+        },
+        {
+            "en": "the newest image is {age_s:.1f} s old, so the position of the drill is not known",
+            "de": "das neueste Bild ist {age_s:.1f} s alt, daher ist die Lage des Bohrers unbekannt",
+        },
+    ),
+    "PLACEMENT_NO_NUMBERS": (
+        {
+            "en": "the newest image does not show where the drill is in the bone ({reason})",
+            "de": "das neueste Bild zeigt nicht, wo der Bohrer im Knochen ist ({reason})",
+        },
+    ),
+    "PLACEMENT_NO_SCREW": (
+        {
+            "en": "no screw is planned for {channel}, so its size is not known",
+            "de": "für {channel} ist keine Schraube geplant, daher ist ihre Größe unbekannt",
+        },
+    ),
+    "PLACEMENT_SETUP_CHANGED": (
+        {
+            "en": "the newest image was computed with another channel or registration than the case has now",
+            "de": "das neueste Bild wurde mit einem anderen Kanal oder einer anderen Registrierung berechnet, "
+            "als der Fall jetzt hat",
+        },
+    ),
+    "PLACEMENT_UNKNOWN": (
+        {"en": "{title} is not a placed screw", "de": "{title} ist keine gesetzte Schraube"},
     ),
     "PLAN_EMPTY": (
         {

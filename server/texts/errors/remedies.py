@@ -4,6 +4,38 @@ from server.texts.language import Text
 
 REMEDIES: tuple[Text, ...] = (
     {
+        "en": "Select the channel that was drilled.",
+        "de": "Den gebohrten Kanal wählen.",
+    },
+    {
+        "en": "Select the channel that was drilled, or place the drill in this one.",
+        "de": "Den gebohrten Kanal wählen, oder den Bohrer in diesen führen.",
+    },
+    {
+        "en": "Place the drill or screwdriver in the channel, then touch again.",
+        "de": "Bohrer oder Schraubendreher in den Kanal führen, dann erneut berühren.",
+    },
+    {
+        "en": "Wait until the video runs, then touch again.",
+        "de": "Warten, bis das Bild läuft, dann erneut berühren.",
+    },
+    {
+        "en": "Complete the steps that are due, hold drill and markers in view, then touch again.",
+        "de": "Fällige Schritte abschließen, Bohrer und Marker im Bild halten, dann erneut berühren.",
+    },
+    {
+        "en": "State diameter and length of the screw.",
+        "de": "Durchmesser und Länge der Schraube angeben.",
+    },
+    {
+        "en": "GET /api/navigation/placements lists the placed screws.",
+        "de": "GET /api/navigation/placements nennt die gesetzten Schrauben.",
+    },
+    {
+        "en": "Give both, or none for the planned screw.",
+        "de": "Beides angeben, oder keines für die geplante Schraube.",
+    },
+    {
         "en": "Show the board to the camera until views are taken: at least 3, better 12 or more.",
         "de": "Die Tafel vor die Kamera halten, bis Ansichten aufgenommen sind: mindestens 3, besser 12 "
         "oder mehr.",
