@@ -20,7 +20,7 @@ def share_validators() -> None:
     if names["TypeAdapter"] is not _shared_adapter:
         # FastAPI's private name: if it is gone, this must not stay without effect.
         assert names["TypeAdapter"] is TypeAdapter
-        names["TypeAdapter"] = _shared_adapter  # called like the class
+        names["TypeAdapter"] = _shared_adapter
 
 
 def _shared_adapter(annotated: Any, *, config: Any = None) -> TypeAdapter[Any]:  # noqa: ANN401  any type

@@ -218,8 +218,8 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
     "PLACEMENT_SETUP_CHANGED": (
         {
             "en": "the newest image was computed with another channel or registration than the case has now",
-            "de": "das neueste Bild wurde mit einem anderen Kanal oder einer anderen Registrierung berechnet, "
-            "als der Fall jetzt hat",
+            "de": "das neueste Bild wurde mit einem anderen Kanal oder einer anderen Registrierung "
+            "berechnet, als der Fall jetzt hat",
         },
     ),
     "PLACEMENT_UNKNOWN": (
