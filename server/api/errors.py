@@ -81,6 +81,7 @@ INTERNAL = ProblemMessage(
     message="an internal error occurred in the server",
     remedy="Try again; if the error persists, send the server log to the maintainer.",
     context={},
+    language="en",
 )
 
 
@@ -143,6 +144,7 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
             "contains a number that is too long",
             remedy="Send JSON as described in /api/docs.",
             context={"path": path},
+            language="en",
         )
         return _answer(422, problem)
     code, message, remedy = HTTP_ERROR_TEXTS.get(
@@ -156,6 +158,7 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
         else message,
         remedy=remedy,
         context={"path": path},
+        language="en",
     )
     return _answer(error.status_code, problem, dict(error.headers or {}))
 
@@ -181,6 +184,7 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
                 {"where": ".".join(str(part) for part in one["loc"]), "what": one["msg"]} for one in found
             ],
         },
+        language="en",
     )
     return _answer(422, problem)
 

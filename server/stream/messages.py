@@ -38,7 +38,7 @@ class ProblemMessage(Message):
     message: str
     remedy: str
     context: dict[str, object]
-    language: Language = "en"
+    language: Language
     """Language of message and remedy: as requested by `Accept-Language`; English without a translation."""
 
 

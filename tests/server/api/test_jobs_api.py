@@ -42,6 +42,7 @@ def test_jobs_are_reported_whole(jobs: Jobs) -> None:
         "message": "1 slices found",
         "remedy": "Take more.",
         "context": {"slices": 1},
+        "language": "en",
     }
     assert door.delete(f"/api/jobs/{good.id}").json() == reported
     missing = door.delete("/api/jobs/nothing")
