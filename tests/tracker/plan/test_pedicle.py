@@ -120,6 +120,16 @@ def test_a_solid_rod_without_cortex_is_measured_too(
     assert (measure.entry_lps_mm[1], measure.front_lps_mm[1]) == pytest.approx((26.0, -42.0), abs=0.8)
 
 
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_dark_marrow_does_not_end_the_pedicle_wherever_the_click_is(side: Side) -> None:
+    """Marrow like muscle leaks out of the bone's solid; the entry was 15 to 20 mm too far in front."""
+    made = phantom(marrow_hu=45.0, cortex_mm=0.8)
+    volume = scan(made.hu_at, grid(noise_hu=20.0))
+    for offset in ((0.0, 0.0, 0.0), (3.0, 1.5, -2.0)):
+        measure = measure_pedicle(volume, made.seed_lps_mm(side, offset), side)
+        assert measure.length_mm == pytest.approx(made.truth(side).length_mm, abs=1.5), offset
+
+
 def test_clicks_anywhere_in_the_pedicle_give_the_same_pedicle() -> None:
     made, volume = usual()
     widths = [

@@ -71,9 +71,13 @@ def back_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array)
     If the axis continues into a process, the entry is where the arch around it ends, as a surgeon opens it.
     """
     exit_mm = _exit_mm(solid, isthmus_mm, -axis, ENTRY_FROM_MM)
+    if exit_mm is not None and _is_in_open_marrow(near, solid, isthmus_mm, -axis, exit_mm):
+        exit_mm = None
     wall = _wall(near, solid, isthmus_mm, -axis, ENTRY_FROM_MM, exit_mm)
     arch_mm = arch_back_mm(solid, isthmus_mm, axis)
     if arch_mm is None or wall.distance_mm <= arch_mm + PROCESS_MM:
+        return wall
+    if _is_in_open_marrow(near, solid, isthmus_mm, -axis, arch_mm):
         return wall
     beyond_mm = wall.distance_mm - arch_mm
     return WallAhead(
@@ -164,13 +168,31 @@ def _outer_wall(
         for distance_mm, trough in falls(near, profile, min_hu=share * near.min_fall_hu, behind=behind):
             if distance_mm < from_mm or trough > near.soft_below_hu:
                 continue
-            points = [
-                isthmus_mm + (distance_mm + look_mm) * direction
-                for look_mm in (GAP_BEYOND_MM, LOOK_BEYOND_MM)
-            ]
-            if not all(_is_enclosed(near, point, direction) for point in points):
+            if not _is_within_bone(near, _beyond(isthmus_mm, direction, distance_mm), direction):
                 return distance_mm, True
     return max(len(profile) - 1, 0) * STEP_MM, False
+
+
+def _is_in_open_marrow(
+    near: Neighbourhood, solid: Solid, isthmus_mm: Array, direction: Array, distance_mm: float
+) -> bool:
+    """Return whether the solid ends at this distance within the bone.
+
+    Marrow as dark as muscle that a weak wall does not close off does not belong to the solid.
+    """
+    beyond = _beyond(isthmus_mm, direction, distance_mm)
+    return bool((solid.depth_at(beyond) < 0.0).all()) and _is_within_bone(near, beyond, direction)
+
+
+def _beyond(isthmus_mm: Array, direction: Array, distance_mm: float) -> Array:
+    """Return the points (2, 3) of the line behind a wall at this distance."""
+    along = distance_mm + np.array([GAP_BEYOND_MM, LOOK_BEYOND_MM])
+    return np.asarray(isthmus_mm + along[:, None] * direction)
+
+
+def _is_within_bone(near: Neighbourhood, points: Array, direction: Array) -> bool:
+    """Return whether bone encloses the line at each of these points (n, 3)."""
+    return all(_is_enclosed(near, point, direction) for point in points)
 
 
 def _is_enclosed(near: Neighbourhood, point_mm: Array, direction: Array) -> bool:
