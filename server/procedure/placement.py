@@ -219,7 +219,7 @@ class PlacementStep:
             SetupOrderError: NO_CASE_OPEN, PLAN_MISSING, REGISTER_MISSING, PLACEMENT_NO_CHANNEL,
                 PLACEMENT_NO_SCREW, PLACEMENT_NO_IMAGE, PLACEMENT_NO_NUMBERS, PLACEMENT_SETUP_CHANGED.
             OutOfDateError: the registration is out of date.
-            InvalidInput: DRILL_NOT_IN_BONE, DRILL_NOT_IN_CHANNEL.
+            RegistrationError: DRILL_NOT_IN_BONE, DRILL_NOT_IN_CHANNEL.
         """
         stored = self._plans.latest_valid()
         active = stored.active

@@ -45,6 +45,7 @@ SETTINGS = {
 HAS_ANGLE = r"""() => /^.?\d+\.\d$/.test(
     document.querySelector("[data-testid='reading-angle']")?.textContent ?? "")"""
 
+REJECTED_TOUCHES = ("DRILL_NOT_IN_BONE", "PLACEMENT_NO_NUMBERS", "PLACEMENT_NO_IMAGE")
 IS_IN_BONE = """() => Number(
     document.querySelector("[data-testid='reading-depth']")?.textContent ?? NaN) > 5"""
 
@@ -106,9 +107,10 @@ def registered_checked_and_navigated(tablet: Tablet, server: RealServer, browser
     tablet.tap("scene-operation")
     tablet.page.wait_for_function(HAS_ANGLE)
     tablet.looked_at("navigate")
-    places_the_screw(tablet)
     switch_to_the_left(tablet)
     signs_plan_and_registration(sato.page)
+    tablet.page.wait_for_function(HAS_ANGLE)
+    places_the_screw(tablet)
     in_theatre(browser, server, tablet, sato)
     left(sato)
 
@@ -136,7 +138,7 @@ def signs_plan_and_registration(page: Page) -> None:
 def places_the_screw(tablet: Tablet) -> None:
     """The screw is stored where the drill is, listed with its figures, and drawn with the next image."""
     page = tablet.page
-    placed = page.get_by_test_id("screw-L3-right")
+    placed = page.get_by_test_id("screw-L3-left")
     expect(placed).to_have_attribute("data-placed", "false", timeout=PATIENCE_MS)
     while True:
         page.wait_for_function(IS_IN_BONE)
@@ -144,13 +146,13 @@ def places_the_screw(tablet: Tablet) -> None:
             tablet.tap("place-here")
         if answered.value.status == 201:
             break
-        # The drill has left the bone, or was hidden, in the image of the touch.
-        assert answered.value.json()["code"] in ("DRILL_NOT_IN_BONE", "PLACEMENT_NO_NUMBERS")
+        # In the image of the touch, the drill had left the bone or was hidden, or the image was too old.
+        assert answered.value.json()["code"] in REJECTED_TOUCHES
     expect(placed).to_have_attribute("data-placed", "true", timeout=PATIENCE_MS)
-    tablet.reads("screw-L3-right", "95 % error")
+    tablet.reads("screw-L3-left", "95 % error")
     tablet.looked_at("placed")
     (screw,) = tablet.asks("/api/live")["snapshot"]["channel"]["placed_screws"]
-    assert screw["name"] == "L3 right"
+    assert screw["name"] == "L3 left"
 
 
 def switch_to_the_left(tablet: Tablet) -> None:

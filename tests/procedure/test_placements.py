@@ -100,7 +100,7 @@ def test_the_other_side_keeps_the_first_screw(server: Server, patient: Patient) 
     server.ask("POST", PLACEMENTS, 201, json=PLACE)
     activate(server, side="right")
     patient.show(drilled(20.0))
-    assert rejected(server, 422) == "DRILL_NOT_IN_CHANNEL"
+    assert rejected(server) == "DRILL_NOT_IN_CHANNEL"
     patient.show(drilled(20.0, side="right"))
     server.ask("POST", PLACEMENTS, 201, json=PLACE)
     assert all(one["placement"] for one in channels(server).values())
@@ -121,7 +121,7 @@ def test_what_is_not_known_is_not_placed(server: Server, patient: Patient) -> No
     patient.show(None)
     assert rejected(server) == "PLACEMENT_NO_NUMBERS"
     patient.show(drilled(-5.0))
-    assert rejected(server, 422) == "DRILL_NOT_IN_BONE"
+    assert rejected(server) == "DRILL_NOT_IN_BONE"
     patient.show(drilled(20.0))
     assert rejected(server, request=BY) == "PLACEMENT_NO_SCREW"
     assert rejected(server, 422, {**BY, "length_mm": 40.0}) == "SCREW_INCOMPLETE"

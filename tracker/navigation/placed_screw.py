@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracker.errors import InvalidInput
+from tracker.errors import RegistrationError
 from tracker.geometry import Array, Rigid, Tool, Vertebra
 from tracker.navigation.drill_reference import ScrewSize
 from tracker.plan import Channel
@@ -39,7 +39,7 @@ class PlacedScrew:
         """Return the screw on the axis of a drill, starting at the entry plane as a planned screw does.
 
         Raises:
-            InvalidInput: DRILL_NOT_IN_BONE, the tip is before the entry plane; DRILL_NOT_IN_CHANNEL, the
+            RegistrationError: DRILL_NOT_IN_BONE, the tip is before the entry plane; DRILL_NOT_IN_CHANNEL, the
                 drill lies across the channel or in another one.
         """
         direction = vertebra_from_tool.rotate_directions([0.0, 0.0, 1.0])
@@ -47,7 +47,7 @@ class PlacedScrew:
         cosine = float(direction @ channel.axis_in_vertebra)
         angle_deg = float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))
         if angle_deg > MAX_ANGLE_DEG:
-            raise InvalidInput(
+            raise RegistrationError(
                 "DRILL_NOT_IN_CHANNEL",
                 f"the drill is at {angle_deg:.0f} deg to {channel.name}, the limit is {MAX_ANGLE_DEG:g} deg",
                 ELSEWHERE,
@@ -55,7 +55,7 @@ class PlacedScrew:
             )
         before_mm = float((channel.entry_in_vertebra_mm - tip) @ channel.axis_in_vertebra)
         if before_mm >= 0.0:
-            raise InvalidInput(
+            raise RegistrationError(
                 "DRILL_NOT_IN_BONE",
                 f"the tip is {before_mm:.1f} mm before the entry of {channel.name}",
                 "Place the drill or screwdriver in the channel, then touch again.",
@@ -64,7 +64,7 @@ class PlacedScrew:
         head = tip + direction * (before_mm / cosine)
         offset_mm = float(np.linalg.norm(head - channel.entry_in_vertebra_mm))
         if offset_mm > MAX_ENTRY_OFFSET_MM:
-            raise InvalidInput(
+            raise RegistrationError(
                 "DRILL_NOT_IN_CHANNEL",
                 f"the axis of the drill is {offset_mm:.1f} mm from the entry of {channel.name}, "
                 f"the limit is {MAX_ENTRY_OFFSET_MM:g} mm",

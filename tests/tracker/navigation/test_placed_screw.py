@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tracker.errors import InvalidInput
+from tracker.errors import RegistrationError
 from tracker.geometry import Rigid, Tool, Vertebra, rotation_between
 from tracker.navigation import PlacedScrew, ScrewSize
 from tracker.plan import Channel
@@ -48,6 +48,6 @@ def test_a_drill_parallel_to_the_channel(shift_mm: float) -> None:
     ],
 )
 def test_a_drill_elsewhere_places_nothing(tip_mm: list[float], direction: list[float], code: str) -> None:
-    with pytest.raises(InvalidInput) as rejected:
+    with pytest.raises(RegistrationError) as rejected:
         PlacedScrew.on_drill(CHANNEL, drill(tip_mm, direction), SCREW)
     assert rejected.value.code == code

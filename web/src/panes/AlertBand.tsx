@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { sentence } from "../operator/parts/format";
 import { useLive } from "../live/LiveContext";
 import { useTexts } from "../texts/TextsContext";
-import { textOf } from "../texts/text";
+import { languageOf, textOf } from "../texts/text";
 import { noteOf, problemsOf } from "./problems";
 
 /** Problems in the server's words, with their remedies; nothing without a problem. */
@@ -16,9 +16,10 @@ export function AlertBand(): ReactNode {
       {problems.map(({ code, message, remedy }) => (
         <p className="alert" key={code} data-testid="alert">
           <span aria-hidden="true">▲▲</span>
-          <strong>{sentence(textOf(message, texts))}</strong>
+          <strong lang={languageOf(message, texts)}>{sentence(textOf(message, texts))}</strong>
           <span>
-            {texts.alerts.remedy} {textOf(remedy, texts)} <code>{code}</code>
+            {texts.alerts.remedy} <span lang={languageOf(remedy, texts)}>{textOf(remedy, texts)}</span>{" "}
+            <code>{code}</code>
           </span>
         </p>
       ))}
