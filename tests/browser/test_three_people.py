@@ -49,6 +49,11 @@ REJECTED_TOUCHES = ("DRILL_NOT_IN_BONE", "PLACEMENT_NO_NUMBERS", "PLACEMENT_NO_I
 IS_IN_BONE = """() => Number(
     document.querySelector("[data-testid='reading-depth']")?.textContent ?? NaN) > 5"""
 
+IS_DRAWN = """async () => {
+    const { snapshot } = await (await fetch("/api/live")).json();
+    return snapshot?.channel?.placed_screws.some((one) => one.name === "L3 left") ?? false;
+}"""
+
 
 @pytest.fixture
 def server(tmp_path: Path) -> Iterator[RealServer]:
@@ -151,8 +156,7 @@ def places_the_screw(tablet: Tablet) -> None:
     expect(placed).to_have_attribute("data-placed", "true", timeout=PATIENCE_MS)
     tablet.reads("screw-L3-left", "95 % error")
     tablet.looked_at("placed")
-    (screw,) = tablet.asks("/api/live")["snapshot"]["channel"]["placed_screws"]
-    assert screw["name"] == "L3 left"
+    page.wait_for_function(IS_DRAWN)
 
 
 def switch_to_the_left(tablet: Tablet) -> None:
