@@ -10,7 +10,7 @@ from server.api.requester import MadeBy, MadeByQuery
 from server.procedure.placement import ChannelState, Placement, PlacementStep
 from server.store import OutOfDate
 from server.stream.message import Message
-from server.stream.snapshot_messages import ScrewMessage
+from server.stream.snapshot_messages import ScrewMessage, screw_message
 from tracker.errors import InvalidInput
 from tracker.navigation import FigureName, ScrewSize, Status, Verdict
 from tracker.navigation.directions import Wall
@@ -115,16 +115,14 @@ def _size(requested: PlaceRequest) -> ScrewSize | None:
         )
     if requested.diameter_mm is None or requested.length_mm is None:
         return None
-    return ScrewSize(radius_mm=0.5 * requested.diameter_mm, length_mm=requested.length_mm)
+    return ScrewSize.of(diameter_mm=requested.diameter_mm, length_mm=requested.length_mm)
 
 
 def _channel(state: ChannelState) -> ChannelStateMessage:
     return ChannelStateMessage(
         vertebra=state.vertebra,
         side=state.side,
-        screw=None
-        if state.screw is None
-        else ScrewMessage(diameter_mm=2.0 * state.screw.radius_mm, length_mm=state.screw.length_mm),
+        screw=screw_message(state.screw),
         is_active=state.is_active,
         is_registered=state.is_registered,
         placement=None if state.placement is None else _placement(state.placement),
@@ -146,9 +144,7 @@ def _placement(placement: Placement) -> PlacementMessage:
         clearance_mm=record.clearance_mm,
         grade=record.grade,
         figures={
-            name: PlacedFigureMessage(
-                value=one.value, limit=one.limit, error_95=one.error_95, status=one.status
-            )
+            name: PlacedFigureMessage.model_validate(one, from_attributes=True)
             for name, one in record.figures.items()
         },
     )

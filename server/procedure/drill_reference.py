@@ -151,7 +151,7 @@ def _guide(planned: PlannedPedicle, chosen: WallSelection) -> DrillReference:
         tolerance=None if screw is None else PedicleTolerance.of_tolerance(screw.tolerance),
         screw=None
         if screw is None
-        else ScrewSize(radius_mm=0.5 * screw.diameter_mm, length_mm=screw.length_mm),
+        else ScrewSize.of(diameter_mm=screw.diameter_mm, length_mm=screw.length_mm),
         side=planned.active.side,
         wall_sd_mm=WALL_SD_MM,
     )

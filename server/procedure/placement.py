@@ -5,7 +5,7 @@ the registration of its vertebra: after a new one it is out of date, because bot
 """
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from math import isfinite
 
@@ -17,7 +17,7 @@ from server.errors import SetupOrderError
 from server.live import LiveHub
 from server.procedure.documents import parse_document
 from server.procedure.open_case import require_open_case
-from server.procedure.plan import ActiveChannel, PlanRepository, StoredPlan, is_same_channel
+from server.procedure.plan import ActiveChannel, PlanRepository, is_same_channel
 from server.procedure.registration import RegistrationRepository
 from server.store import CaseStore, Document, DocumentKind, Validity
 from tracker.errors import NavigationError
@@ -34,7 +34,8 @@ from tracker.navigation import (
 from tracker.navigation.clearance import NearestWall
 from tracker.navigation.directions import Wall
 from tracker.navigation.figures import rounded_down
-from tracker.plan.document.changes import channel_of, vertebra_named
+from tracker.plan.document import PlannedChannel
+from tracker.plan.document.changes import channel_name, channel_of, vertebra_named
 from tracker.plan.pedicle import Side
 from tracker.plan.screw import GertzbeinRobbins
 
@@ -87,16 +88,11 @@ class PlacementRecord(Section):
     def screw(self) -> PlacedScrew:
         """The screw in the vertebra frame."""
         return PlacedScrew(
-            name=placement_name(self.vertebra, self.side),
+            name=channel_name(self.vertebra, self.side),
             head_in_vertebra_mm=np.array(self.head_in_vertebra_mm),
             tip_in_vertebra_mm=np.array(self.screw_tip_in_vertebra_mm),
             radius_mm=0.5 * self.diameter_mm,
         )
-
-
-def placement_name(vertebra: str, side: Side) -> str:
-    """Return the document name of a channel's placement."""
-    return f"{vertebra} {side}"
 
 
 def placement_from_document(document: Document) -> PlacementRecord:
@@ -108,18 +104,18 @@ def placement_from_document(document: Document) -> PlacementRecord:
     return parse_document(PlacementRecord, document, code="PLACEMENT_DOCUMENT_INVALID", remedy=REMEDY)
 
 
-def placed_screws(documents: Sequence[Document], vertebra: str) -> tuple[PlacedScrew, ...]:
+def placed_screws(documents: Iterable[Document], vertebra: str) -> tuple[PlacedScrew, ...]:
     """Return the screws that these documents place in a vertebra; unreadable ones are logged."""
-    screws = []
+    return tuple(record.screw for _, record in _readable(documents) if record.vertebra == vertebra)
+
+
+def _readable(documents: Iterable[Document]) -> Iterator[tuple[Document, PlacementRecord]]:
+    """Yield documents with their records, without those that cannot be read, which are logged."""
     for document in documents:
         try:
-            record = placement_from_document(document)
+            yield document, placement_from_document(document)
         except NavigationError as error:
             log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-            continue
-        if record.vertebra == vertebra:
-            screws.append(record.screw)
-    return tuple(screws)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -192,17 +188,22 @@ class PlacementStep:
         """
         stored = self._plans.latest()
         case_id, active = stored.document.case_id, stored.active
-        placed = {one.document.name: one for one in self._placements(case_id)}
+        placed = {
+            document.name: Placement(
+                record=record, document=document, validity=self._store.validity(document)
+            )
+            for document, record in _readable(self._store.all(case_id, DocumentKind.PLACEMENT))
+        }
         registered = {one.name for one in self._store.all_current(case_id, DocumentKind.REGISTRATION)}
         return tuple(
             ChannelState(
                 vertebra=vertebra.name,
                 side=channel.side,
-                screw=_planned_screw(stored, vertebra.name, channel.side),
+                screw=_planned_screw(channel),
                 is_active=active is not None
                 and (active.vertebra, active.side) == (vertebra.name, channel.side),
                 is_registered=vertebra.name in registered,
-                placement=placed.get(placement_name(vertebra.name, channel.side)),
+                placement=placed.get(channel_name(vertebra.name, channel.side)),
             )
             for vertebra in stored.plan.vertebrae
             for channel in vertebra.channels
@@ -230,7 +231,7 @@ class PlacementStep:
                 "Select the channel that was drilled.",
             )
         registration = self._registrations.current(active.vertebra)
-        planned = _planned_screw(stored, active.vertebra, active.side)
+        planned = _planned_screw(channel_of(vertebra_named(stored.plan, active.vertebra), active.side))
         screw = size or planned
         if screw is None:
             raise SetupOrderError(
@@ -250,7 +251,7 @@ class PlacementStep:
         return self._store.put(
             stored.document.case_id,
             DocumentKind.PLACEMENT,
-            placement_name(active.vertebra, active.side),
+            channel_name(active.vertebra, active.side),
             record.model_dump(mode="json"),
             made_by=made_by,
             depends_on=[registration.document.id],
@@ -273,17 +274,6 @@ class PlacementStep:
                 {"title": document.title_text},
             )
         self._store.withdraw(document, by=made_by, reason="the screw is not placed")
-
-    def _placements(self, case_id: str) -> list[Placement]:
-        found = []
-        for document in self._store.all(case_id, DocumentKind.PLACEMENT):
-            try:
-                record = placement_from_document(document)
-            except NavigationError as error:
-                log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-                continue
-            found.append(Placement(record=record, document=document, validity=self._store.validity(document)))
-        return found
 
     def _snapshot(self, active: ActiveChannel) -> NavigationSnapshot:
         """Return the newest snapshot, which must be fresh and of this channel."""
@@ -356,12 +346,11 @@ class PlacementStep:
         )
 
 
-def _planned_screw(stored: StoredPlan, vertebra: str, side: Side) -> ScrewSize | None:
-    planned = channel_of(vertebra_named(stored.plan, vertebra), side)
+def _planned_screw(planned: PlannedChannel) -> ScrewSize | None:
     if not planned.screws:
         return None
     screw = planned.screws[0]
-    return ScrewSize(radius_mm=0.5 * screw.diameter_mm, length_mm=screw.length_mm)
+    return ScrewSize.of(diameter_mm=screw.diameter_mm, length_mm=screw.length_mm)
 
 
 def _reason(snapshot: NavigationSnapshot) -> str:

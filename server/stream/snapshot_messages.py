@@ -28,6 +28,7 @@ from tracker.navigation import (
     MotionDetection,
     MotionState,
     NavigationSnapshot,
+    ScrewSize,
     Setup,
     motion_detected_by,
 )
@@ -170,9 +171,7 @@ def channel_message(setup: Setup) -> ChannelMessage | None:
         entry_in_vertebra_mm=channel.entry_in_vertebra_mm.tolist(),
         target_in_vertebra_mm=channel.target_in_vertebra_mm.tolist(),
         radius_mm=channel.radius_mm,
-        screw=None
-        if screw is None
-        else ScrewMessage(diameter_mm=2.0 * screw.radius_mm, length_mm=screw.length_mm),
+        screw=screw_message(screw),
         ct_id=setup.ct_id or None,
         placed_screws=[
             PlacedScrewMessage(
@@ -184,6 +183,13 @@ def channel_message(setup: Setup) -> ChannelMessage | None:
             for one in setup.placed_screws
         ],
     )
+
+
+def screw_message(screw: ScrewSize | None) -> ScrewMessage | None:
+    """Return the message of a screw's size; None without one."""
+    if screw is None:
+        return None
+    return ScrewMessage(diameter_mm=2.0 * screw.radius_mm, length_mm=screw.length_mm)
 
 
 def _tool_state(snapshot: NavigationSnapshot, name: str) -> ToolStateMessage:

@@ -30,6 +30,11 @@ class ScrewSize:
     radius_mm: float
     length_mm: float
 
+    @classmethod
+    def of(cls, *, diameter_mm: float, length_mm: float) -> "ScrewSize":
+        """Return the size of a screw as catalogues state it."""
+        return cls(radius_mm=0.5 * diameter_mm, length_mm=length_mm)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrillReference:
