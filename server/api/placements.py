@@ -11,6 +11,7 @@ from server.procedure.placement import ChannelState, Placement, PlacementStep
 from server.store import OutOfDate
 from server.stream.message import Message
 from server.stream.snapshot_messages import ScrewMessage, screw_message
+from server.texts import requested_language
 from tracker.errors import InvalidInput
 from tracker.navigation import FigureName, ScrewSize, Status, Verdict
 from tracker.navigation.directions import Wall
@@ -135,7 +136,7 @@ def _placement(placement: Placement) -> PlacementMessage:
         document_id=document.id,
         placed_at=document.made_at,
         placed_by=document.maker,
-        out_of_date=validity.reason if isinstance(validity, OutOfDate) else None,
+        out_of_date=validity.why.message[requested_language()] if isinstance(validity, OutOfDate) else None,
         tool=record.tool,
         image_number=record.image_number,
         screw=ScrewMessage(diameter_mm=record.diameter_mm, length_mm=record.length_mm),

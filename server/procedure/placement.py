@@ -20,6 +20,7 @@ from server.procedure.open_case import require_open_case
 from server.procedure.plan import ActiveChannel, PlanRepository, is_same_channel
 from server.procedure.registration import RegistrationRepository
 from server.store import CaseStore, Document, DocumentKind, Validity
+from server.texts import WITHDRAWALS
 from tracker.errors import NavigationError
 from tracker.navigation import (
     Absent,
@@ -273,7 +274,7 @@ class PlacementStep:
                 "GET /api/navigation/placements lists the placed screws.",
                 {"title": document.title_text},
             )
-        self._store.withdraw(document, by=made_by, reason="the screw is not placed")
+        self._store.withdraw(document, by=made_by, reason=WITHDRAWALS["SCREW_NOT_PLACED"]["en"])
 
     def _snapshot(self, active: ActiveChannel) -> NavigationSnapshot:
         """Return the newest snapshot, which must be fresh and of this channel."""

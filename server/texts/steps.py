@@ -305,5 +305,6 @@ WITHDRAWALS: Mapping[str, Text] = {
         "en": "the active channel was unset",
         "de": "der Kanal, der gebohrt wird, wurde abgewählt",
     },
+    "SCREW_NOT_PLACED": {"en": "the screw is not placed", "de": "die Schraube ist nicht gesetzt"},
     "MARKER_REMOVED": {"en": "the marker was removed", "de": "der Marker wurde entfernt"},
 }
