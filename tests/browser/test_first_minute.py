@@ -17,11 +17,12 @@ from tests.benchmarks.running_server import RunningServer, running_server
 
 pytestmark = pytest.mark.browser
 
-# The goal is 99 % and 15 images/s; a slow machine reaches less. Earlier faults left 30 to 60 %.
-MIN_LIVE_RATIO, MIN_IMAGES_PER_S = 0.75, 8.0
+# The goal is 99 % and 15 images/s. A slow machine reaches less: its pictures become fewer, down to 6 a second,
+# before its figures become old. Earlier faults left 30 to 60 %.
+MIN_LIVE_RATIO, MIN_IMAGES_PER_S = 0.75, 5.0
 # Share of a core used by others, above which nothing can be concluded. `make test` runs this test alone.
 MAX_OTHER_WORK = 0.3
-WINDOW_S, SETTLING_S, WINDOWS = 8.0, 6.0, 3
+WINDOW_S, SETTLING_S, WINDOWS = 8.0, 10.0, 3
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +47,7 @@ def test_figures_are_live_and_the_picture_moves_on_two_cores(
     is_good = any(_is_good(one) for one in seen)
     if not is_good and min(other_work) > MAX_OTHER_WORK:
         pytest.skip(f"other programs took at least {min(other_work):.0%} of a core")
-    assert is_good, [(one.live_ratio, one.images_per_s, one.load) for one in seen]
+    assert is_good, [(one.live_ratio, one.images_per_s, one.processor_use) for one in seen]
 
 
 def _is_good(one: PageMeasurement) -> bool:

@@ -24,7 +24,7 @@ class ProcessorTime:
 
     Attributes:
         own_s: by the name of a part of the server or of the browser.
-        machine_s: of everything on this machine.
+        machine_s: of everything on this machine, and of its host while this machine waits for a processor.
     """
 
     own_s: dict[str, float]
@@ -86,5 +86,5 @@ def _browser_part(pid: int) -> str | None:
 
 def _machine_s() -> float:
     fields = (PROC / "stat").read_text(encoding="ascii").splitlines()[0].split()[1:]
-    user, nice, system, _idle, _wait, irq, soft_irq = map(int, fields[:7])
-    return (user + nice + system + irq + soft_irq) / TICKS_PER_S
+    user, nice, system, _idle, _wait, irq, soft_irq, steal = map(int, fields[:8])
+    return (user + nice + system + irq + soft_irq + steal) / TICKS_PER_S

@@ -73,6 +73,13 @@ test("where no scene is shown the cuts give way first", () => {
   expect(steps[step]).toEqual(UNLIMITED);
 });
 
+test("a machine shared with the server shows fewer pictures to keep its figures young", () => {
+  steps = budgetSteps(500, false, true);
+  pass(30, { ...IDLE, ageMs: 140 }, 150);
+  expect(steps[step]).toMatchObject({ pictureIntervalMs: 160, largestPicture: "full" });
+  expect(Math.max(...budgetSteps(500, false).map((one) => one.pictureIntervalMs))).toBe(62);
+});
+
 test("a scene that is opened leaves cuts and pictures as they are, and begins at its best", () => {
   const without = (steps = budgetSteps(500, false));
   pass(2, SLOW);

@@ -30,8 +30,10 @@ const SCENE_INTERVALS_MS = [0, 80, 125, 200];
 const SCENE_SCALES = [0.7, 0.5];
 /** Five images a second, the slowest rate that still looks like motion. */
 const FEW_CUTS_INTERVAL_MS = 200;
-/** Twenty and sixteen pictures a second: what they save is left to tracking on a shared machine. */
+/** Twenty and sixteen pictures a second. */
 const PICTURE_INTERVALS_MS = [50, 62];
+/** On a machine shared with the server each picture delays the figures of the next image: down to six a second. */
+const SHARED_PICTURE_INTERVALS_MS = [...PICTURE_INTERVALS_MS, 100, 160];
 /** Drawn less often than this share of their age limit, a scene or cut would become stale in between. */
 const MAX_INTERVAL_RATIO = 0.4;
 
@@ -52,12 +54,17 @@ const IDLE = { showingMs: 25, screenIntervalMs: 28, ageRatio: 0.5 };
 const MIN_IMAGES_PER_S = 12;
 
 /** The steps, best first. A hidden scene cannot be reduced. */
-export function budgetSteps(staleAfterMs: number, isSceneShown: boolean): DrawingBudget[] {
+export function budgetSteps(
+  staleAfterMs: number,
+  isSceneShown: boolean,
+  sharesMachine = false,
+): DrawingBudget[] {
   const slowestMs = MAX_INTERVAL_RATIO * staleAfterMs;
   const scene = isSceneShown ? sceneSteps(slowestMs) : [UNLIMITED];
   const cutIntervalMs = Math.max(UNLIMITED.cutIntervalMs, Math.min(FEW_CUTS_INTERVAL_MS, slowestMs));
   const fewCuts = { ...(scene.at(-1) ?? UNLIMITED), cutIntervalMs };
-  const fewPictures = PICTURE_INTERVALS_MS.map((pictureIntervalMs) => ({ ...fewCuts, pictureIntervalMs }));
+  const intervals = sharesMachine ? SHARED_PICTURE_INTERVALS_MS : PICTURE_INTERVALS_MS;
+  const fewPictures = intervals.map((pictureIntervalMs) => ({ ...fewCuts, pictureIntervalMs }));
   return [...scene, fewCuts, ...fewPictures, { ...(fewPictures.at(-1) ?? fewCuts), largestPicture: "half" }];
 }
 

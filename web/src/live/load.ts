@@ -24,7 +24,7 @@ export class Load {
   private readonly control = new BudgetControl();
   private isSceneShown = false;
   private steps: DrawingBudget[] = budgetSteps(0, false);
-  private stepsFor = { staleAfterMs: 0, isSceneDrawn: false };
+  private stepsFor = { staleAfterMs: 0, isSceneDrawn: false, sharesMachine: false };
   private cameraPx: readonly [number, number] | null = null;
   private current = 0;
 
@@ -107,11 +107,17 @@ export class Load {
 
   private chooseSteps(nowMs: number, staleAfterMs: number): void {
     const isSceneDrawn = this.isSceneShown && this.sceneSwitch.isOn;
-    const { stepsFor } = this;
-    if (stepsFor.staleAfterMs === staleAfterMs && stepsFor.isSceneDrawn === isSceneDrawn) return;
-    const steps = budgetSteps(staleAfterMs, isSceneDrawn);
+    const { stepsFor, sharesMachine } = this;
+    if (
+      stepsFor.staleAfterMs === staleAfterMs &&
+      stepsFor.isSceneDrawn === isSceneDrawn &&
+      stepsFor.sharesMachine === sharesMachine
+    ) {
+      return;
+    }
+    const steps = budgetSteps(staleAfterMs, isSceneDrawn, sharesMachine);
     this.control.setSteps(this.steps, steps, nowMs);
     this.steps = steps;
-    this.stepsFor = { staleAfterMs, isSceneDrawn };
+    this.stepsFor = { staleAfterMs, isSceneDrawn, sharesMachine };
   }
 }
