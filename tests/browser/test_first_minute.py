@@ -17,8 +17,8 @@ from tests.benchmarks.running_server import RunningServer, running_server
 
 pytestmark = pytest.mark.browser
 
-# The goal is 99 % and 15 images/s. A slow machine reaches less: its pictures become fewer, down to 6 a second,
-# before its figures become old. Earlier faults left 30 to 60 %.
+# The goal is 99 % and 15 images/s. A slow machine reaches less: its pictures become fewer, down to 6 per
+# second, before its figures become old. Earlier faults left 30 to 60 %.
 MIN_LIVE_RATIO, MIN_IMAGES_PER_S = 0.75, 5.0
 # Share of a core used by others, above which nothing can be concluded. `make test` runs this test alone.
 MAX_OTHER_WORK = 0.3
