@@ -1,7 +1,7 @@
 """Accuracy of the pedicle measurement: random phantoms in random scans, with random clicks."""
 
 import numpy as np
-from scipy.stats import binomtest
+import scipy
 
 from tests.benchmarks.pedicle_conditions import condition_tables
 from tests.benchmarks.section_result import SectionResult
@@ -70,6 +70,6 @@ def _row(name: str, some: list[Off]) -> list[str]:
 def _share_within(some: list[Off]) -> str:
     if not some:
         return "–"
-    result = binomtest(sum(off.is_small for off in some), len(some))
+    result = scipy.stats.binomtest(sum(off.is_small for off in some), len(some))
     interval = result.proportion_ci(0.95, method="exact")
     return f"{result.statistic:.3f} ({interval.low:.3f}-{interval.high:.3f})"

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from tests.benchmarks.figures import Figure, Share, interval, size_of
 from tests.benchmarks.options import BenchmarkOptions
@@ -103,7 +103,7 @@ def spins(*, runs: int, wobble_deg: float, arc_deg: float, outliers: int = 0) ->
 
 def _runs(one: Callable[[int], tuple[float, float, float]], *, runs: int, freedom: int) -> Runs:
     errors, stated, inside, rejected = [], [], 0, 0
-    maximum = float(stats.chi2.ppf(0.95, freedom))
+    maximum = float(scipy.special.chdtri(freedom, 0.05))
     for seed in range(runs):
         try:
             error, sd, squared = one(seed)

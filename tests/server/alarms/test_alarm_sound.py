@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from scipy.signal import hilbert
+import scipy
 
 from server.alarms.sound import BURSTS, burst_wav
 from tracker.navigation.alarms import Priority
@@ -38,7 +38,7 @@ def heard(priority: Priority) -> tuple[np.ndarray, int]:
 
 def envelope_of(samples: np.ndarray, rate_hz: int, fundamental_hz: float) -> np.ndarray:
     """Level of the tone without its ripple: power of the analytic signal over two periods."""
-    power = np.abs(hilbert(np.concatenate([np.zeros(2000), samples, np.zeros(2000)]))) ** 2
+    power = np.abs(scipy.signal.hilbert(np.concatenate([np.zeros(2000), samples, np.zeros(2000)]))) ** 2
     width = round(2 * rate_hz / fundamental_hz)
     smooth = np.convolve(power, np.ones(width) / width, mode="same")[2000:-2000]
     return np.sqrt(smooth)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
-from scipy import stats
+from scipy.special import chdtri
 
 from tests.tracker.registration.constellations import VERTEBRA, random_landmarks, touched
 from tracker.geometry import (
@@ -52,7 +52,7 @@ class Simulated:
         covariance = found.target_covariance_mm2(target)
         way = np.linalg.qr(rng.normal(size=(3, 3)))[0][0]
         self.along.append(bool(abs(off @ way) < 1.96 * np.sqrt(way @ covariance @ way)))
-        self.target.append(bool(off @ np.linalg.solve(covariance, off) < stats.chi2.ppf(0.95, 3)))
+        self.target.append(bool(off @ np.linalg.solve(covariance, off) < chdtri(3, 0.05)))
         given = found.registration(AnchoredTo.CAMERA)
         turn = truth.rotation.T @ given.anchor_from_vertebra.rotation.T
         pose = np.concatenate(
@@ -61,7 +61,7 @@ class Simulated:
                 vector_from_rotation(turn),
             ]
         )
-        self.pose.append(bool(pose @ np.linalg.solve(given.covariance, pose) < stats.chi2.ppf(0.95, 6)))
+        self.pose.append(bool(pose @ np.linalg.solve(given.covariance, pose) < chdtri(6, 0.05)))
         self.off_mm2.append(float(off @ off))
         self.expected_mm2.append(found.tre_expected_mm(target) ** 2)
 
@@ -82,17 +82,20 @@ def simulated(
     return seen
 
 
-@pytest.mark.parametrize("count", [3, 4, 6])
+# Each kind of noise and each count, not their product: the factor for few landmarks depends on the count, and
+# whether residuals or the statement give the noise depends on the kind.
 @pytest.mark.parametrize(
-    ("noise", "stated"),
+    ("noise", "stated", "count"),
     [
-        pytest.param(0.6, None, id="like-a-ball-and-unknown"),
-        pytest.param(LIKE_A_NEEDLE, None, id="like-a-needle-and-unknown"),
-        pytest.param(LIKE_A_NEEDLE, LIKE_A_NEEDLE, id="like-a-needle-and-stated"),
+        pytest.param(0.6, None, 3, id="like-a-ball-and-unknown-3"),
+        pytest.param(0.6, None, 6, id="like-a-ball-and-unknown-6"),
+        pytest.param(LIKE_A_NEEDLE, None, 4, id="like-a-needle-and-unknown-4"),
+        pytest.param(LIKE_A_NEEDLE, LIKE_A_NEEDLE, 3, id="like-a-needle-and-stated-3"),
+        pytest.param(LIKE_A_NEEDLE, LIKE_A_NEEDLE, 4, id="like-a-needle-and-stated-4"),
     ],
 )
 def test_the_stated_uncertainty_contains_the_truth_at_its_stated_rate(
-    count: int, noise: np.ndarray | float, stated: np.ndarray | None
+    noise: np.ndarray | float, stated: np.ndarray | None, count: int
 ) -> None:
     seen = simulated(count, noise, stated)
     # 0.010 is the standard deviation of a share of 0.95 over so many runs.
