@@ -4,11 +4,11 @@ from typing import Annotated
 
 import typer
 
-from server.cli.board_names import Layout, Pattern
+from server.cli.board_names import SIZE_COUNTS, Layout, Pattern
 
 _PATTERN = typer.Option(help="Pattern of the board.", show_default=False)
 _SIZE = typer.Option(
-    help="Columns x rows: dots, inner corners of a checkerboard, squares of a ChArUco board.",
+    help=f"Columns x rows: {SIZE_COUNTS}.",
     metavar="14x16",
     show_default=False,
 )
