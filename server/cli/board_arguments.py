@@ -31,6 +31,14 @@ SquareOption = Annotated[float | None, typer.Option("--square-mm", help="Side of
 MarkerOption = Annotated[
     float | None, typer.Option("--marker-mm", help="Side of a ChArUco marker.", metavar="MM")
 ]
+TagOption = Annotated[
+    float | None,
+    typer.Option("--tag-mm", help="Side of a tag of an AprilGrid, border included.", metavar="MM"),
+]
+GapOption = Annotated[
+    float | None,
+    typer.Option("--gap-mm", help="Gap between the tags of an AprilGrid.", metavar="MM"),
+]
 DictionaryOption = Annotated[
     str | None, typer.Option(help="ArUco dictionary, as DICT_6X6_250.", metavar="NAME")
 ]

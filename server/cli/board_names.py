@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 # What the two numbers of --size count, in help and remedies.
-SIZE_COUNTS = "dots, inner corners of a checkerboard, squares of a ChArUco board"
+SIZE_COUNTS = "dots, inner corners of a checkerboard, squares of a ChArUco board, tags of an AprilGrid"
 
 
 class Pattern(StrEnum):
@@ -13,6 +13,7 @@ class Pattern(StrEnum):
     DOTS = "dots"
     CHECKERBOARD = "checkerboard"
     CHARUCO = "charuco"
+    APRILGRID = "aprilgrid"
 
 
 class Layout(StrEnum):
@@ -36,6 +37,8 @@ class BoardOptions:
     pitch_mm: float | None
     square_mm: float | None
     marker_mm: float | None
+    tag_mm: float | None
+    gap_mm: float | None
     dictionary: str | None
     fiducials: str | None
     layout: Layout | None

@@ -5,6 +5,7 @@ from dataclasses import fields
 
 from server.cli.board_names import SIZE_COUNTS, BoardOptions, Layout, Pattern
 from tracker.camera import (
+    AprilGridBoard,
     Board,
     CharucoBoard,
     CharucoLayout,
@@ -44,6 +45,13 @@ def described(board: Board) -> dict[str, object]:
         }
     if isinstance(board, CheckerBoard):
         return {"pattern": Pattern.CHECKERBOARD.value, "size": size, "square_mm": board.square_mm}
+    if isinstance(board, AprilGridBoard):
+        return {
+            "pattern": Pattern.APRILGRID.value,
+            "size": size,
+            "tag_mm": board.tag_mm,
+            "gap_mm": board.gap_mm,
+        }
     return {
         "pattern": Pattern.CHARUCO.value,
         "size": size,
@@ -115,6 +123,14 @@ def _board_of(given: BoardOptions) -> Board:
                 marker_mm=_needed(given, "marker_mm"),
                 dictionary=given.dictionary,
                 layout=None if layout is None else CharucoLayout(layout),
+            )
+        case Pattern.APRILGRID:
+            _reject_unused(given, used=("tag_mm", "gap_mm"))
+            return AprilGridBoard(
+                columns=columns,
+                rows=rows,
+                tag_mm=_needed(given, "tag_mm"),
+                gap_mm=_needed(given, "gap_mm"),
             )
 
 

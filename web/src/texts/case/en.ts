@@ -145,6 +145,7 @@ export const caseEn = {
       dots: "dots, 14 × 10, 12 mm",
       checkerboard: "checkerboard, 10 × 7, 15 mm",
       charuco: "ChArUco, 11 × 8, 15 mm",
+      aprilgrid: "AprilGrid, 7 × 5, 20 mm",
     } satisfies Record<NonNullable<Scene["board"]>, string>,
   },
 };
