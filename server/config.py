@@ -116,7 +116,7 @@ class RehearsalEventConfig(Section):
 
 RehearsalScene: TypeAlias = Literal["operation", "pivot", "spin", "board", "landmarks", "sweep", "check"]
 RehearsalSkill: TypeAlias = Literal["wandering", "good", "breaching"]
-RehearsalBoard: TypeAlias = Literal["dots", "checkerboard", "charuco"]
+RehearsalBoard: TypeAlias = Literal["dots", "checkerboard", "charuco", "aprilgrid"]
 
 
 class RehearsalConfig(Section):

@@ -46,6 +46,8 @@ def _descriptions(model: type) -> dict[str, str]:
                 match below:
                     case ast.Expr(value=ast.Constant(value=str(text))):
                         found[statement.target.id] = inspect.cleandoc(text)
+                    case _:  # a field without a description
+                        pass
     return found
 
 

@@ -163,6 +163,8 @@ class AlarmEvaluation:
                 return self._engine.pause(step.pause_s, by=step.by, at_s=step.at_s)
             case AlarmCall.RESUME:
                 return self._engine.resume(by=step.by, at_s=step.at_s)
+            case AlarmCall.STEP:
+                pass
         if snapshot is not None:
             self._snapshot = snapshot
             fresh_s = self.limits.camera_silent_after_s

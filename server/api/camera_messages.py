@@ -8,7 +8,15 @@ from server.api.case_messages import DocumentMessage
 from server.api.requester import MadeBy
 from server.procedure.board_collection import BoardCollection, CollectionStatus
 from server.stream.messages import Message, ProblemMessage, problem_message
-from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
+from tracker.camera import (
+    AprilGridBoard,
+    Board,
+    CharucoBoard,
+    CharucoLayout,
+    CheckerBoard,
+    DotBoard,
+    DotLayout,
+)
 
 SHOW_IT = "Show the board to the camera."
 
@@ -56,8 +64,22 @@ class CharucoMessage(Message):
     """null: detected."""
 
 
+class AprilGridMessage(Message):
+    """A grid of AprilTags 36h11 as Kalibr prints it."""
+
+    pattern: Literal["aprilgrid"]
+    columns: Count
+    """Tags in a row."""
+    rows: Count
+    """Rows of tags."""
+    tag_mm: Millimetres
+    """Side of a tag, black border included."""
+    gap_mm: Millimetres
+    """Gap between two tags."""
+
+
 BoardMessage: TypeAlias = Annotated[
-    DotsMessage | CheckerboardMessage | CharucoMessage, Field(discriminator="pattern")
+    DotsMessage | CheckerboardMessage | CharucoMessage | AprilGridMessage, Field(discriminator="pattern")
 ]
 
 
@@ -152,6 +174,10 @@ def board_of(message: BoardMessage) -> Board:
                 dictionary=message.dictionary,
                 layout=message.layout,
             )
+        case AprilGridMessage():
+            return AprilGridBoard(
+                columns=message.columns, rows=message.rows, tag_mm=message.tag_mm, gap_mm=message.gap_mm
+            )
 
 
 def board_message(board: Board) -> BoardMessage:
@@ -179,6 +205,14 @@ def board_message(board: Board) -> BoardMessage:
                 marker_mm=board.marker_mm,
                 dictionary=board.dictionary,
                 layout=board.layout,
+            )
+        case AprilGridBoard():
+            return AprilGridMessage(
+                pattern="aprilgrid",
+                columns=board.columns,
+                rows=board.rows,
+                tag_mm=board.tag_mm,
+                gap_mm=board.gap_mm,
             )
 
 

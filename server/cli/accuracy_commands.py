@@ -8,12 +8,14 @@ import typer
 from server.cli.board_arguments import (
     DictionaryOption,
     FiducialsOption,
+    GapOption,
     LayoutOption,
     MarkerOption,
     PatternOption,
     PitchOption,
     SizeOption,
     SquareOption,
+    TagOption,
 )
 from server.cli.board_names import BoardOptions
 
@@ -55,6 +57,8 @@ def accuracy(
     pitch_mm: PitchOption = None,
     square_mm: SquareOption = None,
     marker_mm: MarkerOption = None,
+    tag_mm: TagOption = None,
+    gap_mm: GapOption = None,
     dictionary: DictionaryOption = None,
     fiducials: FiducialsOption = None,
     layout: LayoutOption = None,
@@ -76,6 +80,8 @@ def accuracy(
         pitch_mm=pitch_mm,
         square_mm=square_mm,
         marker_mm=marker_mm,
+        tag_mm=tag_mm,
+        gap_mm=gap_mm,
         dictionary=dictionary,
         fiducials=fiducials,
         layout=layout,

@@ -4,11 +4,11 @@ from typing import Annotated
 
 import typer
 
-from server.cli.board_names import Layout, Pattern
+from server.cli.board_names import SIZE_COUNTS, Layout, Pattern
 
 _PATTERN = typer.Option(help="Pattern of the board.", show_default=False)
 _SIZE = typer.Option(
-    help="Columns x rows: dots, inner corners of a checkerboard, squares of a ChArUco board.",
+    help=f"Columns x rows: {SIZE_COUNTS}.",
     metavar="14x16",
     show_default=False,
 )
@@ -30,6 +30,14 @@ PitchOption = Annotated[
 SquareOption = Annotated[float | None, typer.Option("--square-mm", help="Side of a square.", metavar="MM")]
 MarkerOption = Annotated[
     float | None, typer.Option("--marker-mm", help="Side of a ChArUco marker.", metavar="MM")
+]
+TagOption = Annotated[
+    float | None,
+    typer.Option("--tag-mm", help="Side of a tag of an AprilGrid, border included.", metavar="MM"),
+]
+GapOption = Annotated[
+    float | None,
+    typer.Option("--gap-mm", help="Gap between the tags of an AprilGrid.", metavar="MM"),
 ]
 DictionaryOption = Annotated[
     str | None, typer.Option(help="ArUco dictionary, as DICT_6X6_250.", metavar="NAME")

@@ -1,4 +1,4 @@
-"""The commands `coaxial board dots`, `checkerboard` and `charuco`."""
+"""The commands `coaxial board dots`, `checkerboard`, `charuco` and `aprilgrid`."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -132,3 +132,26 @@ def charuco(
         layout=CharucoLayout(layout.value),
     )
     write_board(board, output, paper=paper.value)
+
+
+@board_app.command()
+def aprilgrid(
+    output: OutputOption,
+    size: Annotated[str, typer.Option(help="Columns x rows of tags.", metavar="CxR")] = "6x6",
+    tag_mm: Annotated[
+        float, typer.Option("--tag-mm", help="Side of a tag, including its black border.", metavar="MM")
+    ] = 20.0,
+    gap_mm: Annotated[
+        float, typer.Option("--gap-mm", help="Gap between two tags (Kalibr: spacing x size).", metavar="MM")
+    ] = 6.0,
+    paper: PaperOption = Paper.A4,
+) -> None:
+    """Make an AprilGrid as Kalibr uses it: AprilTags 36h11 with black squares between their corners."""
+    from server.cli.board import write_board  # noqa: PLC0415  loaded when needed
+    from server.cli.board_options import size_of  # noqa: PLC0415
+    from tracker.camera.boards import AprilGridBoard  # noqa: PLC0415
+
+    columns, rows = size_of("--size", size)
+    write_board(
+        AprilGridBoard(columns=columns, rows=rows, tag_mm=tag_mm, gap_mm=gap_mm), output, paper=paper.value
+    )

@@ -3,6 +3,9 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+# What the two numbers of --size count, in help and remedies.
+SIZE_COUNTS = "dots, inner corners of a checkerboard, squares of a ChArUco board, tags of an AprilGrid"
+
 
 class Pattern(StrEnum):
     """Calibration pattern."""
@@ -10,6 +13,7 @@ class Pattern(StrEnum):
     DOTS = "dots"
     CHECKERBOARD = "checkerboard"
     CHARUCO = "charuco"
+    APRILGRID = "aprilgrid"
 
 
 class Layout(StrEnum):
@@ -23,15 +27,20 @@ class Layout(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoardOptions:
-    """Options that describe a board; None if not given."""
+    """Options that describe a board; None if not given.
+
+    They have no defaults, so that the type check names each command that does not pass a new one.
+    """
 
     pattern: Pattern
     size: str
-    pitch_mm: float | None = None
-    square_mm: float | None = None
-    marker_mm: float | None = None
-    dictionary: str | None = None
-    fiducials: str | None = None
-    layout: Layout | None = None
+    pitch_mm: float | None
+    square_mm: float | None
+    marker_mm: float | None
+    tag_mm: float | None
+    gap_mm: float | None
+    dictionary: str | None
+    fiducials: str | None
+    layout: Layout | None
     inset: str | None = None
     inset_square_mm: float | None = None

@@ -1,9 +1,18 @@
 """Calibration board from command-line options."""
 
 import re
+from dataclasses import fields
 
-from server.cli.board_names import BoardOptions, Layout, Pattern
-from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
+from server.cli.board_names import SIZE_COUNTS, BoardOptions, Layout, Pattern
+from tracker.camera import (
+    AprilGridBoard,
+    Board,
+    CharucoBoard,
+    CharucoLayout,
+    CheckerBoard,
+    DotBoard,
+    DotLayout,
+)
 from tracker.errors import InvalidInput
 
 
@@ -13,35 +22,10 @@ def boards_of(given: BoardOptions) -> tuple[Board, ...]:
     Raises:
         InvalidInput: BOARD_OPTION_MISSING, BOARD_OPTION_UNUSED, BOARD_OPTION_INVALID or BOARD_INVALID.
     """
-    columns, rows = size_of("--size", given.size)
-    board: Board
-    if given.pattern is Pattern.DOTS:
-        _reject_unused(given, "square_mm", "marker_mm", "dictionary")
-        board = DotBoard(
-            columns=columns,
-            rows=rows,
-            pitch_mm=_needed(given, "pitch_mm"),
-            layout=DotLayout(_layout(given, Layout.SYMMETRIC, Layout.ASYMMETRIC) or Layout.SYMMETRIC),
-            fiducials=indexes_of(given.fiducials),
-        )
-    elif given.pattern is Pattern.CHECKERBOARD:
-        _reject_unused(given, "pitch_mm", "marker_mm", "dictionary", "fiducials", "layout")
-        board = CheckerBoard(columns=columns, rows=rows, square_mm=_needed(given, "square_mm"))
-    else:
-        _reject_unused(given, "pitch_mm", "fiducials")
-        if given.dictionary is None:
-            raise _missing(given, "dictionary")
-        layout = _layout(given, Layout.NEWER, Layout.OLDER)
-        board = CharucoBoard(
-            columns=columns,
-            rows=rows,
-            square_mm=_needed(given, "square_mm"),
-            marker_mm=_needed(given, "marker_mm"),
-            dictionary=given.dictionary,
-            layout=None if layout is None else CharucoLayout(layout),
-        )
+    board = _board_of(given)
     if given.inset is None:
-        _reject_unused(given, "inset_square_mm")
+        if given.inset_square_mm is not None:
+            raise _unused(given, "inset_square_mm")
         return (board,)
     inner_columns, inner_rows = size_of("--inset", given.inset)
     square_mm = _needed(given, "inset_square_mm")
@@ -61,6 +45,13 @@ def described(board: Board) -> dict[str, object]:
         }
     if isinstance(board, CheckerBoard):
         return {"pattern": Pattern.CHECKERBOARD.value, "size": size, "square_mm": board.square_mm}
+    if isinstance(board, AprilGridBoard):
+        return {
+            "pattern": Pattern.APRILGRID.value,
+            "size": size,
+            "tag_mm": board.tag_mm,
+            "gap_mm": board.gap_mm,
+        }
     return {
         "pattern": Pattern.CHARUCO.value,
         "size": size,
@@ -82,7 +73,7 @@ def size_of(option: str, text: str) -> tuple[int, int]:
         raise InvalidInput(
             "BOARD_OPTION_INVALID",
             f"{option} {text} is not a size, expected COLUMNSxROWS",
-            f"Write it as {option} 14x16: dots, inner corners of a checkerboard, squares of a ChArUco board.",
+            f"Write it as {option} 14x16: {SIZE_COUNTS}.",
         )
     return int(found[1]), int(found[2])
 
@@ -103,6 +94,44 @@ def indexes_of(text: str | None) -> tuple[int, ...]:
             "Number the dots row by row from 0 at the top left, and list the larger ones as 69,74,149,154.",
         )
     return tuple(int(part) for part in parts)
+
+
+def _board_of(given: BoardOptions) -> Board:
+    columns, rows = size_of("--size", given.size)
+    match given.pattern:
+        case Pattern.DOTS:
+            _reject_unused(given, used=("pitch_mm", "fiducials", "layout"))
+            return DotBoard(
+                columns=columns,
+                rows=rows,
+                pitch_mm=_needed(given, "pitch_mm"),
+                layout=DotLayout(_layout(given, Layout.SYMMETRIC, Layout.ASYMMETRIC) or Layout.SYMMETRIC),
+                fiducials=indexes_of(given.fiducials),
+            )
+        case Pattern.CHECKERBOARD:
+            _reject_unused(given, used=("square_mm",))
+            return CheckerBoard(columns=columns, rows=rows, square_mm=_needed(given, "square_mm"))
+        case Pattern.CHARUCO:
+            _reject_unused(given, used=("square_mm", "marker_mm", "dictionary", "layout"))
+            if given.dictionary is None:
+                raise _missing(given, "dictionary")
+            layout = _layout(given, Layout.NEWER, Layout.OLDER)
+            return CharucoBoard(
+                columns=columns,
+                rows=rows,
+                square_mm=_needed(given, "square_mm"),
+                marker_mm=_needed(given, "marker_mm"),
+                dictionary=given.dictionary,
+                layout=None if layout is None else CharucoLayout(layout),
+            )
+        case Pattern.APRILGRID:
+            _reject_unused(given, used=("tag_mm", "gap_mm"))
+            return AprilGridBoard(
+                columns=columns,
+                rows=rows,
+                tag_mm=_needed(given, "tag_mm"),
+                gap_mm=_needed(given, "gap_mm"),
+            )
 
 
 def _layout(given: BoardOptions, *allowed: Layout) -> str | None:
@@ -133,13 +162,20 @@ def _missing(given: BoardOptions, name: str) -> InvalidInput:
     )
 
 
-def _reject_unused(given: BoardOptions, *names: str) -> None:
-    for name in names:
-        if getattr(given, name) is not None:
-            option = "--" + name.replace("_", "-")
-            raise InvalidInput(
-                "BOARD_OPTION_UNUSED",
-                f"{option} does not apply to a {given.pattern.value} board",
-                f"Omit {option}, or give another --pattern.",
-                {"option": option},
-            )
+def _reject_unused(given: BoardOptions, *, used: tuple[str, ...]) -> None:
+    """Reject each given option that this pattern does not use; those of an inset apply to all patterns."""
+    for field in fields(given):
+        if field.name in ("pattern", "size", "inset", "inset_square_mm", *used):
+            continue
+        if getattr(given, field.name) is not None:
+            raise _unused(given, field.name)
+
+
+def _unused(given: BoardOptions, name: str) -> InvalidInput:
+    option = "--" + name.replace("_", "-")
+    return InvalidInput(
+        "BOARD_OPTION_UNUSED",
+        f"{option} does not apply to a {given.pattern.value} board",
+        f"Omit {option}, or give another --pattern.",
+        {"option": option},
+    )

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from server.printing.sheet import Disc, Fill, Mark, Point, rectangle
-from tracker.camera.boards import Board, CharucoBoard, CheckerBoard, DotBoard, DotLayout
+from tracker.camera.boards import AprilGridBoard, Board, CharucoBoard, CheckerBoard, DotBoard, DotLayout
 from tracker.errors import InvalidInput
 
 # Relative to the distance to the nearest other dot.
@@ -29,6 +29,8 @@ def marks_of_board(board: Board, *, dot_mm: float | None = None) -> tuple[Mark, 
         return tuple(_dots(board, dot_mm))
     if isinstance(board, CheckerBoard):
         return tuple(_checkers(board))
+    if isinstance(board, AprilGridBoard):
+        return tuple(_april_grid(board))
     return tuple(_charuco(board))
 
 
@@ -100,6 +102,15 @@ def _charuco(board: CharucoBoard) -> Iterator[Fill]:
         yield from _modules(
             picture > 127, (column * side + margin, row * side + margin), board.marker_mm / modules
         )
+
+
+def _april_grid(board: AprilGridBoard) -> Iterator[Fill]:
+    pitch_mm, gap_mm = board.tag_mm + board.gap_mm, board.gap_mm
+    for row, column in product(range(board.rows + 1), range(board.columns + 1)):
+        yield Fill(corners_mm=rectangle(column * pitch_mm - gap_mm, row * pitch_mm - gap_mm, gap_mm, gap_mm))
+    for row, column in product(range(board.rows), range(board.columns)):
+        white = board.white_modules(board.tag_at(column, row))
+        yield from _modules(white, (column * pitch_mm, row * pitch_mm), board.tag_mm / len(white))
 
 
 def _modules(white: npt.NDArray[np.bool_], at_mm: Point, module_mm: float) -> Iterator[Fill]:

@@ -6,7 +6,7 @@ from server.printing.board_marks import bounding_box, marks_of_board, translated
 from server.printing.paper import PAPER_MM
 from server.printing.rulers import millimetre_ruler, vertical_ruler
 from server.printing.sheet import Fill, Label, Point, Sheet, rectangle
-from tracker.camera.boards import Board, CharucoLayout, CheckerBoard, DotBoard, DotLayout
+from tracker.camera.boards import AprilGridBoard, Board, CharucoLayout, CheckerBoard, DotBoard, DotLayout
 from tracker.errors import InvalidInput
 
 # Margins around the board: text above, rulers on the left and below, and the unprintable area.
@@ -66,6 +66,8 @@ def description_of(board: Board) -> str:
         return f"dots {size}{asymmetric}, pitch {board.pitch_mm:g} mm{larger}"
     if isinstance(board, CheckerBoard):
         return f"checkerboard {size} inner corners, square {board.square_mm:g} mm"
+    if isinstance(board, AprilGridBoard):
+        return f"aprilgrid {size} tags, tag {board.tag_mm:g} mm, gap {board.gap_mm:g} mm"
     layout = board.layout or CharucoLayout.NEWER
     return (
         f"charuco {size} squares, square {board.square_mm:g} mm, marker {board.marker_mm:g} mm, "

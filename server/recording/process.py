@@ -278,6 +278,8 @@ class Recording:
             case TextMessage():
                 text = message
                 self._write(lambda: self._writer.add_json(text.topic, text.at_s, text.text))
+            case Stop():  # ends the loop that calls this
+                pass
 
     def read_all(self) -> None:
         """Read all entries of the ring, and wait for a state that is being encoded."""

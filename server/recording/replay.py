@@ -198,6 +198,8 @@ class _Replay:
             case Topic.ALARM_STEP:
                 content = message.json()
                 self._steps.append((AlarmStepMessage.model_validate_json(message.content), content))
+            case _:  # neither an input of the replay nor compared with its results
+                pass
         self._compare_steps()
 
     def end(self) -> None:

@@ -161,6 +161,8 @@ def make_index(path: Path, report: Report = lambda _ratio, _doing: None) -> Reco
                     events.add_mark(location.unix_s, _json(file, location))
                 case Topic.NOTE:
                     events.add_note(location.unix_s, _json(file, location))
+                case _:  # only a replay reads these
+                    pass
     return rows.index(events, is_whole=locations.is_whole)
 
 

@@ -125,7 +125,8 @@ def _decoded(content: dict[str, Json]) -> Value:
             return slice(*(decoded_value(one) for one in value))
         case "bytes":
             return base64.b64decode(value, validate=True)
-    raise CodecError(f"{tag!r} is not a kind of value")
+        case _:
+            raise CodecError(f"{tag!r} is not a kind of value")
 
 
 def _encoded_array(array: np.ndarray) -> Json:

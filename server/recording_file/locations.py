@@ -112,6 +112,8 @@ class MessageLocations:
                 case Opcode.FOOTER:
                     self.is_whole = True
                     return
+                case _:  # indexes and summaries, which a cut file does not have
+                    pass
 
     def _add_channel(self, content: bytes) -> None:
         (number,) = struct.unpack_from("<H", content)

@@ -280,6 +280,7 @@ KINDS: Mapping[str, Text] = {
     "registration": {"en": "registration", "de": "Registrierung"},
     "check": {"en": "check", "de": "Prüfung"},
     "confirmation": {"en": "confirmation", "de": "Bestätigung"},
+    "placement": {"en": "placed screw", "de": "gesetzte Schraube"},
     "signature": {"en": "signature", "de": "Gegenzeichnung"},
     "consent": {"en": "consent", "de": "Einwilligung"},
     "comment": {"en": "comment", "de": "Kommentar"},

@@ -8,7 +8,8 @@ from cv2.typing import MatLike
 from playwright.sync_api import Browser
 
 from server.printing import board_sheet, svg_from_sheet
-from tracker.camera.boards import Board, CharucoBoard, CheckerBoard, DotBoard
+from tracker.camera.boards import AprilGridBoard, Board, CharucoBoard, CheckerBoard, DotBoard
+from tracker.camera.detection import BoardView, find_board
 
 pytestmark = pytest.mark.browser
 
@@ -20,6 +21,10 @@ def found_in(picture: MatLike, board: Board) -> npt.NDArray[np.float64]:
     if isinstance(board, CharucoBoard):
         corners, *_ = cv2.aruco.CharucoDetector(board.opencv_board()).detectBoard(picture)
         return np.asarray(corners, np.float64)
+    if isinstance(board, AprilGridBoard):
+        view = find_board(np.asarray(picture, dtype=np.uint8), board)
+        assert isinstance(view, BoardView), view
+        return view.image_points_px
     size = (board.columns, board.rows)
     if isinstance(board, CheckerBoard):
         _, corners = cv2.findChessboardCornersSB(picture, size)
@@ -37,6 +42,7 @@ def found_in(picture: MatLike, board: Board) -> npt.NDArray[np.float64]:
             CharucoBoard(columns=8, rows=5, square_mm=30.0, marker_mm=22.0, dictionary="DICT_6X6_250"),
             id="charuco",
         ),
+        pytest.param(AprilGridBoard(columns=6, rows=6, tag_mm=20.0, gap_mm=6.0), id="april-grid"),
     ],
 )
 def test_a_board_is_found_on_the_page_that_a_browser_draws(browser: Browser, board: Board) -> None:

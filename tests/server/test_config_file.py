@@ -11,7 +11,7 @@ import yaml
 from server.config import Config
 from server.config_file import Override, load_config
 from server.errors import ConfigError
-from tracker.camera import CharucoBoard, CheckerBoard, DotBoard
+from server.printing.board_sheet import description_of
 from tracker.rehearsal.boards import BOARD_FROM_KIND
 from tracker.rehearsal.settings import BoardKind
 
@@ -36,16 +36,14 @@ def test_the_file_in_the_repository_states_the_built_in_defaults() -> None:
     assert load_config(REPOSITORY / "config.yaml", environment={}) == Config()
 
 
-def test_the_file_tells_the_boards_that_the_rehearsal_shows() -> None:
-    said = (REPOSITORY / "config.yaml").read_text()
-    dots, checkers, charuco = (BOARD_FROM_KIND[kind] for kind in BoardKind)
-    assert isinstance(dots, DotBoard)
-    assert isinstance(checkers, CheckerBoard)
-    assert isinstance(charuco, CharucoBoard)
-    assert f"dots: {dots.columns}x{dots.rows}, pitch {dots.pitch_mm:g} mm" in said
-    assert f"{checkers.columns}x{checkers.rows} inner corners, square {checkers.square_mm:g} mm" in said
-    assert f"{charuco.columns}x{charuco.rows} squares of {charuco.square_mm:g} mm" in said
-    assert f"markers of {charuco.marker_mm:g} mm, {charuco.dictionary}" in said
+@pytest.mark.parametrize("kind", list(BoardKind))
+def test_the_file_describes_the_board_that_the_rehearsal_shows(kind: BoardKind) -> None:
+    pattern, numbers = description_of(BOARD_FROM_KIND[kind]).removesuffix(", newer layout").split(" ", 1)
+    assert pattern == kind.value
+    described = f"{pattern}: {numbers}"
+    assert described in (REPOSITORY / "config.yaml").read_text(), (
+        f"config.yaml: describe it above `board`: {described}"
+    )
 
 
 def test_without_a_file_the_built_in_settings_hold(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

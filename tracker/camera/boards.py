@@ -10,11 +10,14 @@ from typing import TypeAlias
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
 MIN_POINTS, MAX_POINTS = 4, 10_000
+# Of Kalibr: its tags, and the width of their black border in modules.
+APRIL_GRID_DICTIONARY, APRIL_GRID_BORDER = "DICT_APRILTAG_36h11", 2
 
 
 class DotLayout(StrEnum):
@@ -180,7 +183,72 @@ class CharucoBoard:
         return board
 
 
-Board: TypeAlias = DotBoard | CheckerBoard | CharucoBoard
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AprilGridBoard:
+    """An AprilGrid as Kalibr prints it: AprilTags 36h11, with black squares in the gaps at their corners.
+
+    Tags count from 0 at the bottom left, row by row upwards, and have a black border of two modules. Points
+    are the corners of the tags; each lies where a tag and a square meet, as on a checkerboard.
+
+    Attributes:
+        columns: tags in a row.
+        rows: rows of tags.
+        tag_mm: side of a tag, black border included (Kalibr's tagSize).
+        gap_mm: gap between two tags (Kalibr's tagSpacing times tagSize).
+
+    Raises:
+        InvalidInput: BOARD_INVALID, with the number that cannot be.
+    """
+
+    columns: int
+    rows: int
+    tag_mm: float
+    gap_mm: float
+
+    def __post_init__(self) -> None:
+        _reject_counts(self.columns, self.rows, 4 * self.columns * self.rows)
+        _reject_length("tag_mm", self.tag_mm)
+        _reject_length("gap_mm", self.gap_mm)
+        if self.gap_mm > self.tag_mm:
+            raise _invalid(f"a gap of {self.gap_mm:g} mm between tags of {self.tag_mm:g} mm")
+        available = int(self.opencv_dictionary.bytesList.shape[0])
+        if self.columns * self.rows > available:
+            raise _invalid(f"{self.columns * self.rows} tags, and {APRIL_GRID_DICTIONARY} has {available}")
+
+    @property
+    def object_points_mm(self) -> Array:
+        """Return the corners of the tags (n, 3) in mm, row by row; the first tag's top left is the origin."""
+        column, row = _indexes(2 * self.columns, 2 * self.rows)
+        pitch_mm = self.tag_mm + self.gap_mm
+        x, y = ((index // 2) * pitch_mm + (index % 2) * self.tag_mm for index in (column, row))
+        return _points(x, y)
+
+    @property
+    def opencv_dictionary(self) -> cv2.aruco.Dictionary:
+        """Return the OpenCV dictionary."""
+        return cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, APRIL_GRID_DICTIONARY))
+
+    def tag_at(self, column: int, row: int) -> int:
+        """Return the number of a tag; rows count from the top."""
+        return (self.rows - 1 - row) * self.columns + column
+
+    def corner_ids(self, tag: int) -> tuple[int, int, int, int]:
+        """Return the indexes of a tag's corners, in the order in which OpenCV returns them."""
+        from_bottom, column = divmod(tag, self.columns)
+        row = self.rows - 1 - from_bottom
+        top_left = 2 * row * 2 * self.columns + 2 * column
+        below = top_left + 2 * self.columns
+        # OpenCV has the tags upside down: its first corner is the bottom right one.
+        return below + 1, below, top_left, top_left + 1
+
+    def white_modules(self, tag: int) -> npt.NDArray[np.bool_]:
+        """Return the modules of a tag (10, 10), row 0 on top."""
+        side = self.opencv_dictionary.markerSize + 2 * APRIL_GRID_BORDER
+        picture = self.opencv_dictionary.generateImageMarker(tag, side, borderBits=APRIL_GRID_BORDER)
+        return np.rot90(np.asarray(picture) > 127, 2)
+
+
+Board: TypeAlias = DotBoard | CheckerBoard | CharucoBoard | AprilGridBoard
 
 
 def dictionaries() -> tuple[str, ...]:
@@ -213,5 +281,6 @@ def _invalid(what: str) -> InvalidInput:
     return InvalidInput(
         "BOARD_INVALID",
         f"there is no such calibration board: {what}",
-        "Count the board again: dots, or inner corners of a checkerboard, or squares of a ChArUco board.",
+        "Count the board again: dots, or inner corners of a checkerboard, or squares of a ChArUco board, "
+        "or tags of an AprilGrid.",
     )

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.camera import Board, CameraModel, CharucoBoard, CheckerBoard, DotBoard
+from tracker.camera import AprilGridBoard, Board, CameraModel, CharucoBoard, CheckerBoard, DotBoard
 from tracker.geometry import Array, Camera, Pattern, Rigid, rotation_from_vector
 from tracker.rehearsal.printed_plane import PrintedPlane
 from tracker.rehearsal.settings import BoardKind
@@ -30,6 +30,8 @@ BOARD_FROM_KIND: dict[BoardKind, Board] = {
     BoardKind.CHARUCO: CharucoBoard(
         columns=11, rows=8, square_mm=15.0, marker_mm=11.0, dictionary="DICT_5X5_100"
     ),
+    # All edges lie on whole pixels of the face: OpenCV shifts others by up to 20 um, which biases p1.
+    BoardKind.APRILGRID: AprilGridBoard(columns=7, rows=5, tag_mm=20.0, gap_mm=5.0),
 }
 
 # Position of the board's centre, in half image sizes from the image centre; distance, as a ratio of its
@@ -99,6 +101,8 @@ def printed(board: Board) -> PrintedBoard:
             _print_squares(face, board, origin)
         case CharucoBoard():
             _print_charuco(face, board, origin)
+        case AprilGridBoard():
+            _print_april_grid(face, board, origin)
     return PrintedBoard(board=board, face=face, origin_px=(float(origin[0]), float(origin[1])))
 
 
@@ -109,6 +113,8 @@ def _reach_mm(board: Board) -> float:
             return board.pitch_mm
         case CheckerBoard() | CharucoBoard():
             return board.square_mm
+        case AprilGridBoard():
+            return board.gap_mm
 
 
 class BoardHand:
@@ -205,3 +211,20 @@ def _print_charuco(face: Image8, board: CharucoBoard, origin: Array) -> None:
     # The origin of OpenCV's board and points is the corner of its first square.
     x, y = (round(float(v)) for v in origin)
     face[y : y + size[1], x : x + size[0]] = inked
+
+
+def _print_april_grid(face: Image8, board: AprilGridBoard, origin: Array) -> None:
+    pitch, gap = (board.tag_mm + board.gap_mm) * PER_MM, board.gap_mm * PER_MM
+    for row in range(board.rows + 1):
+        for column in range(board.columns + 1):
+            _print_box(face, origin + pitch * np.array([column, row]) - gap, gap)
+    for row in range(board.rows):
+        for column in range(board.columns):
+            corner = origin + pitch * np.array([column, row])
+            _print_box(face, corner, board.tag_mm * PER_MM)
+            white = board.white_modules(board.tag_at(column, row))
+            # In whole pixels, because anti-aliasing would leave seams between modules.
+            steps = board.tag_mm * PER_MM / len(white) * np.arange(len(white) + 1)
+            x, y = (np.rint(start + steps).astype(int) for start in corner)
+            for down, right in np.argwhere(white):
+                face[y[down] : y[down + 1], x[right] : x[right + 1]] = PAPER

@@ -37,6 +37,7 @@ class BoardKind(StrEnum):
     DOTS = "dots"
     CHECKERBOARD = "checkerboard"
     CHARUCO = "charuco"
+    APRILGRID = "aprilgrid"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,7 +9,7 @@ import typer
 
 from server.calibration import coverage_svg, residuals_svg
 from server.camera_file import CameraFile, camera_file_text
-from server.cli.board_names import BoardOptions
+from server.cli.board_names import SIZE_COUNTS, BoardOptions
 from server.cli.board_options import boards_of, described
 from server.cli.calibration.images import Picture, Unusable, files_of, names_of, read_picture, usual_size
 from server.cli.calibration.reported import ImageEntry, Sight, entries_of, json_of, print_report
@@ -187,8 +187,7 @@ def flattened(detected: DetectedBoards) -> tuple[list[BoardView], list[int]]:
             "BOARD_NOT_FOUND",
             f"the board was found in none of {len(detected.names)} images "
             f"({detected.names[at]}: {why.sentence})",
-            "Check --pattern and --size (dots, inner corners of a checkerboard, squares of a ChArUco board), "
-            "and that the board is sharp and evenly lit.",
+            f"Check --pattern and --size ({SIZE_COUNTS}), and that the board is sharp and evenly lit.",
             {"images": len(detected.names), "reason": why.reason.value},
         )
     return views, owners

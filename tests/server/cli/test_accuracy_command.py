@@ -199,6 +199,7 @@ def test_an_image_that_cannot_be_measured_is_rejected(tmp_path: Path, camera: Pa
         (("--pattern", "dots", "--size", "9x6"), "--pitch-mm"),
         (("--pattern", "checkerboard", "--size", "9x6"), "--square-mm"),
         (("--pattern", "charuco", "--size", "9x6", "--square-mm", "9"), "--dictionary"),
+        (("--pattern", "aprilgrid", "--size", "6x6", "--tag-mm", "22"), "--gap-mm"),
     ],
 )
 def test_a_board_half_described_is_asked_for(words: tuple[str, ...], missing: str, camera: Path) -> None:

@@ -40,6 +40,7 @@ def typed(*words: str | Path) -> tuple[int, str]:
             "DICT_6X6_250, older layout, on A3",
             id="charuco",
         ),
+        pytest.param(("aprilgrid",), "aprilgrid 6x6 tags, tag 20 mm, gap 6 mm", id="april-grid"),
     ],
 )
 @pytest.mark.parametrize("kind", ["pdf", "svg"])
@@ -62,6 +63,7 @@ def test_each_board_is_written(words: tuple[str, ...], said: str, kind: str, tmp
         pytest.param(("checkerboard", "--square-mm", "nan"), "BOARD_INVALID", id="no-length"),
         pytest.param(("checkerboard", "--square-mm", "60"), "BOARD_TOO_LARGE", id="too-large"),
         pytest.param(("charuco", "--marker-mm", "30"), "BOARD_INVALID", id="no-margin"),
+        pytest.param(("aprilgrid", "--gap-mm", "21"), "BOARD_INVALID", id="gap-wider-than-a-tag"),
         pytest.param(("charuco", "--dictionary", "DICT_9X9"), "BOARD_INVALID", id="no-dictionary"),
     ],
 )

@@ -112,6 +112,8 @@ def test_bad_input_is_reported_and_nothing_is_written(images: Path, tmp_path: Pa
         ("BOARD_OPTION_INVALID", ("--pattern", "dots", "--size", "14", "--pitch-mm", "4", images)),
         ("BOARD_OPTION_MISSING", ("--pattern", "charuco", "--size", "8x6", "--square-mm", "4", images)),
         ("BOARD_OPTION_UNUSED", ("--pattern", "dots", "--size", "8x6", "--square-mm", "4", images)),
+        ("BOARD_OPTION_UNUSED", ("--pattern", "dots", "--size", "8x6", "--tag-mm", "4", images)),
+        ("BOARD_OPTION_UNUSED", (*BOARD, "--inset-square-mm", "4", images)),
         ("BOARD_INVALID", ("--pattern", "dots", "--size", "8x6", "--pitch-mm", "-4", images)),
         ("COEFFICIENTS_INVALID", (*BOARD, "--coefficients", "6", images / "view0.png")),
         ("OUTPUT_IS_INPUT", (*BOARD, "--output", images / "view0.png", images)),

@@ -12,6 +12,7 @@ from cv2.typing import MatLike
 from server.printing import Label, Line, board_sheet, pdf_from_sheet, svg_from_sheet
 from server.printing.board_marks import bounding_box, marks_of_board
 from tracker.camera.boards import (
+    AprilGridBoard,
     Board,
     CharucoBoard,
     CharucoLayout,
@@ -19,6 +20,7 @@ from tracker.camera.boards import (
     DotBoard,
     DotLayout,
 )
+from tracker.camera.detection import BoardView, find_board
 from tracker.errors import InvalidInput
 
 PX_PER_MM = 6.0
@@ -153,6 +155,14 @@ def test_a_charuco_board_is_opencv_s_own_picture_of_it(layout: CharucoLayout) ->
     )
     # Except for a margin of a pixel along edges.
     assert np.mean(cv2.erode(cv2.absdiff(mine, own), np.ones((3, 3), np.uint8)) > 100) < 1e-4
+
+
+def test_each_tag_of_an_april_grid_is_found_at_its_place() -> None:
+    board = AprilGridBoard(columns=6, rows=8, tag_mm=20.0, gap_mm=6.0)
+    view = find_board(page_of(board), board)
+    assert isinstance(view, BoardView), view
+    assert view.ids.size == 4 * 48
+    assert_at_true_size(view.image_points_px, board, view.ids.tolist())
 
 
 def test_the_pdf_draws_the_same_dots_round_and_in_place() -> None:

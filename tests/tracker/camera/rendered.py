@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.camera import Board, CameraModel, CharucoBoard, CheckerBoard, DotBoard
+from tracker.camera import AprilGridBoard, Board, CameraModel, CharucoBoard, CheckerBoard, DotBoard
 from tracker.geometry import Array, rotation_from_vector
 
 SAMPLES = 2
@@ -80,6 +80,8 @@ def _light(board: Board, at_mm: Array, radius_mm: float, large_mm: float) -> Arr
         square = np.floor(at_mm / board.square_mm).astype(int)
         inside = ((square >= -1) & (square < [board.columns, board.rows])).all(axis=1)
         return np.where(inside & (square.sum(axis=1) % 2 == 0), 0.0, 1.0)
+    if isinstance(board, AprilGridBoard):
+        return _april_grid_light(board, at_mm)
     return _charuco_light(board, at_mm)
 
 
@@ -103,3 +105,20 @@ def _charuco_light(board: CharucoBoard, at_mm: Array) -> Array:
     inside = ((px >= 0) & (px < [wide, high])).all(axis=1)
     x, y = np.clip(px, 0, [wide - 1, high - 1]).T
     return np.where(inside, drawn[y, x] / 255.0, 1.0)
+
+
+def _april_grid_light(board: AprilGridBoard, at_mm: Array) -> Array:
+    pitch_mm, module_mm = board.tag_mm + board.gap_mm, board.tag_mm / 10.0
+    # From the top left corner of the first gap.
+    cell, within_mm = np.divmod(at_mm + board.gap_mm, pitch_mm)
+    within_mm = within_mm - board.gap_mm
+    size = np.array([board.columns, board.rows])
+    in_gap = within_mm < 0.0
+    ink = np.asarray(in_gap.all(axis=1) & ((cell >= 0) & (cell <= size)).all(axis=1))
+    in_tag = (~in_gap).all(axis=1) & ((cell >= 0) & (cell < size)).all(axis=1)
+    for column in range(board.columns):
+        for row in range(board.rows):
+            here = in_tag & (cell == [column, row]).all(axis=1)
+            x, y = np.clip((within_mm[here] / module_mm).astype(int), 0, 9).T
+            ink[here] = ~board.white_modules(board.tag_at(column, row))[y, x]
+    return np.where(ink, 0.0, 1.0)

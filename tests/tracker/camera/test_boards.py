@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tracker.camera import CharucoBoard, CheckerBoard, DotBoard, DotLayout
+from tracker.camera import AprilGridBoard, CharucoBoard, CheckerBoard, DotBoard, DotLayout
 from tracker.errors import InvalidInput
 
 
@@ -24,6 +24,31 @@ def test_each_second_row_of_an_asymmetric_board_is_shifted_by_the_pitch() -> Non
 def test_charuco_corners_are_those_of_opencv(columns: int, rows: int) -> None:
     board = CharucoBoard(columns=columns, rows=rows, square_mm=10, marker_mm=7, dictionary="DICT_6X6_250")
     np.testing.assert_allclose(board.object_points_mm, board.opencv_board().getChessboardCorners())
+
+
+APRIL_GRID = AprilGridBoard(columns=3, rows=2, tag_mm=10.0, gap_mm=3.0)
+
+
+def test_corners_of_tags_count_row_by_row_from_the_top_left() -> None:
+    points = APRIL_GRID.object_points_mm[:, :2].tolist()
+    assert points[:6] == [[0, 0], [10, 0], [13, 0], [23, 0], [26, 0], [36, 0]]
+    assert points[6:8] == [[0, 10], [10, 10]]
+    assert points[-1] == [36, 23]
+
+
+def test_tags_count_from_the_bottom_left_upwards_as_kalibr_counts_them() -> None:
+    assert [APRIL_GRID.tag_at(column, 1) for column in range(3)] == [0, 1, 2]
+    assert [APRIL_GRID.tag_at(column, 0) for column in range(3)] == [3, 4, 5]
+
+
+def test_a_tag_reads_upright_as_the_published_code_of_its_family() -> None:
+    # tag36h11 in the AprilTag library: bits row by row from the top left, 1 for white.
+    for tag, code in ((0, 0xD5D628584), (1, 0xD97F18B49), (2, 0xDD280910E)):
+        white = APRIL_GRID.white_modules(tag)
+        assert not white[:2].any()
+        assert not white[:, -2:].any()
+        bits = "".join("1" if one else "0" for one in white[2:8, 2:8].ravel())
+        assert int(bits, 2) == code
 
 
 def test_odd_by_even_corners_tell_which_way_up() -> None:
@@ -50,6 +75,12 @@ def test_odd_by_even_corners_tell_which_way_up() -> None:
         pytest.param(
             lambda: CharucoBoard(columns=15, rows=17, square_mm=5, marker_mm=4, dictionary="DICT_4X4_50"),
             id="more-markers-than-the-dictionary-holds",
+        ),
+        pytest.param(
+            lambda: AprilGridBoard(columns=6, rows=6, tag_mm=10, gap_mm=11), id="gap-wider-than-a-tag"
+        ),
+        pytest.param(
+            lambda: AprilGridBoard(columns=30, rows=20, tag_mm=10, gap_mm=3), id="more-tags-than-the-family"
         ),
     ],
 )

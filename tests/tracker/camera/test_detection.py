@@ -4,8 +4,16 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.tracker.camera.rendered import POSES, picture, true_px
-from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
+from tests.tracker.camera.rendered import POSES, Pose, picture, true_px
+from tracker.camera import (
+    AprilGridBoard,
+    Board,
+    CharucoBoard,
+    CharucoLayout,
+    CheckerBoard,
+    DotBoard,
+    DotLayout,
+)
 from tracker.camera.detection import (
     BoardNotFound,
     BoardView,
@@ -23,6 +31,7 @@ ASYMMETRIC = DotBoard(columns=5, rows=11, pitch_mm=8.0, layout=DotLayout.ASYMMET
 NARROW_ASYMMETRIC = DotBoard(columns=4, rows=11, pitch_mm=8.0, layout=DotLayout.ASYMMETRIC)
 CHECKER = CheckerBoard(columns=9, rows=6, square_mm=12.0)
 CHARUCO = CharucoBoard(columns=8, rows=6, square_mm=14.0, marker_mm=10.0, dictionary="DICT_4X4_50")
+APRIL_GRID = AprilGridBoard(columns=6, rows=5, tag_mm=14.0, gap_mm=4.2)
 OLDER = CharucoBoard(
     columns=8, rows=6, square_mm=14.0, marker_mm=10.0, dictionary="DICT_4X4_50", layout=CharucoLayout.OLDER
 )
@@ -40,6 +49,7 @@ def found(board: Board, pose: int) -> BoardView:
         pytest.param(DOTS, 0.25, id="dots-with-larger-ones"),
         pytest.param(CHECKER, 0.2, id="checkerboard"),
         pytest.param(CHARUCO, 0.35, id="charuco"),
+        pytest.param(APRIL_GRID, 0.25, id="april-grid"),
         pytest.param(ASYMMETRIC, 0.25, id="asymmetric-dots"),
         pytest.param(NARROW_ASYMMETRIC, 0.25, id="asymmetric-dots-higher-than-wide"),
     ],
@@ -63,6 +73,40 @@ def test_corners_of_large_charuco_squares_are_placed_to_a_few_hundredths_of_a_pi
     assert isinstance(view, BoardView), view
     truth_px = view.object_points_mm[:, :2] / CHARUCO.square_mm * 61 + 20 - 0.5
     assert np.linalg.norm(view.image_points_px - truth_px, axis=1).max() < 0.1
+
+
+@pytest.mark.parametrize(
+    "pose",
+    [
+        pytest.param(((15.0, -10.0, 8.0), (95.0, -40.0, 250.0)), id="partly-out-of-view"),
+        pytest.param(((10.0, 5.0, 180.0), (0.0, 0.0, 260.0)), id="upside-down"),
+    ],
+)
+def test_tags_name_the_corners_of_a_part_and_of_a_board_upside_down(pose: Pose) -> None:
+    view = find_board(picture(APRIL_GRID, pose), APRIL_GRID)
+    assert isinstance(view, BoardView), view
+    assert view.ids.size > 0.6 * len(APRIL_GRID.object_points_mm)
+    off = np.linalg.norm(view.image_points_px - true_px(APRIL_GRID, pose)[view.ids], axis=1)
+    assert off.max() < 1.0
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_hand_on_an_april_grid_costs_only_the_tags_that_it_touches(seed: int) -> None:
+    image = picture(APRIL_GRID, POSES[seed]).astype(np.float64)
+    hand = cv2.ellipse(np.zeros(image.shape), (250, 430), (40, 170), 20, 0, 360, 1.0, -1)
+    grain = cv2.GaussianBlur(np.random.default_rng(seed).normal(0.0, 9.0, image.shape), (0, 0), 1.5)
+    spoilt = np.asarray(np.clip(np.where(hand > 0, 130.0, image) + grain, 0, 255), dtype=np.uint8)
+    view = find_board(spoilt, APRIL_GRID)
+    assert isinstance(view, BoardView), view
+    truth_px = true_px(APRIL_GRID, POSES[seed])
+    touched = cv2.dilate(hand, np.ones((9, 9))) > 0
+    x, y = np.rint(truth_px).astype(int).T
+    free = [tag for tag in range(30) if not touched[y, x][list(APRIL_GRID.corner_ids(tag))].any()]
+    seen = set(view.ids.tolist())
+    whole = [tag for tag in free if set(APRIL_GRID.corner_ids(tag)) <= seen]
+    assert len(whole) >= 0.85 * len(free)
+    off = np.linalg.norm(view.image_points_px - truth_px[view.ids], axis=1)
+    assert off.max() < 2.0
 
 
 def test_a_symmetric_dot_grid_is_reported_as_ambiguous_by_half_a_turn() -> None:
@@ -129,6 +173,8 @@ def test_columns_and_rows_the_other_way_round_are_seen_by_the_larger_dots() -> N
         pytest.param(None, DOTS, NotFoundReason.NO_POINTS, id="empty-image"),
         pytest.param(None, CHECKER, NotFoundReason.NO_POINTS, id="empty-image-checkerboard"),
         pytest.param(None, CHARUCO, NotFoundReason.NO_POINTS, id="empty-image-charuco"),
+        pytest.param(None, APRIL_GRID, NotFoundReason.NO_POINTS, id="empty-image-april-grid"),
+        pytest.param(CHECKER, APRIL_GRID, NotFoundReason.NO_POINTS, id="squares-are-no-tags"),
         pytest.param(CHECKER, PLAIN_DOTS, NotFoundReason.NO_POINTS, id="squares-are-no-dots"),
         pytest.param(
             PLAIN_DOTS,
@@ -156,7 +202,7 @@ def test_what_is_not_the_board_is_not_found(
 
 def test_noise_alone_is_no_board() -> None:
     noise = np.random.default_rng(3).integers(0, 255, (240, 320)).astype(np.uint8)
-    for board in (DOTS, CHECKER, CHARUCO):
+    for board in (DOTS, CHECKER, CHARUCO, APRIL_GRID):
         assert isinstance(find_board(noise, board), BoardNotFound)
 
 

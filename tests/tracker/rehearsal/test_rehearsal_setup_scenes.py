@@ -8,6 +8,7 @@ import pytest
 
 from tracker.camera import Board, CharucoBoard, CheckerBoard, DotBoard
 from tracker.camera.board_collector import BoardCollector
+from tracker.camera.detection import BoardView, find_board
 from tracker.geometry import angle_between_deg
 from tracker.rehearsal import BoardKind, Phase, Scene, Theatre, TheatreSettings
 from tracker.rehearsal.board_renderer import BoardRenderer
@@ -47,12 +48,20 @@ def found_charuco(grey: np.ndarray, board: Board) -> np.ndarray:
     return np.asarray(corners, dtype=np.float64).reshape(-1, 2)[np.argsort(ids.ravel())]
 
 
+def found_april_grid(grey: np.ndarray, board: Board) -> np.ndarray:
+    view = find_board(grey, board)
+    assert isinstance(view, BoardView), view
+    assert view.ids.size == len(board.object_points_mm)
+    return view.image_points_px
+
+
 @pytest.mark.parametrize(
     ("kind", "found_in", "within_px"),
     [
         pytest.param(BoardKind.CHECKERBOARD, found_checkerboard, 0.06, id="checkerboard"),
         pytest.param(BoardKind.DOTS, found_dots, 0.02, id="dots"),
         pytest.param(BoardKind.CHARUCO, found_charuco, 0.06, id="charuco"),
+        pytest.param(BoardKind.APRILGRID, found_april_grid, 0.06, id="april-grid"),
     ],
 )
 def test_a_board_is_seen_where_the_truth_has_it(

@@ -8,7 +8,8 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.camera.boards import Board, CharucoBoard, CheckerBoard, DotBoard
+from tracker.camera.boards import AprilGridBoard, Board, CharucoBoard, CheckerBoard, DotBoard
+from tracker.camera.detection.april_grid import find_april_grid
 from tracker.camera.detection.blobs import GreyImage
 from tracker.camera.detection.charuco import charuco_layout, find_charuco, layout_misfits
 from tracker.camera.detection.checker import find_checker
@@ -28,6 +29,8 @@ def find_board(image: npt.NDArray[np.uint8], board: Board) -> BoardView | BoardN
         return find_dots(grey, board)
     if isinstance(board, CheckerBoard):
         return find_checker(grey, board)
+    if isinstance(board, AprilGridBoard):
+        return find_april_grid(grey, board)
     return find_charuco(grey, board)
 
 

@@ -53,6 +53,23 @@ export function BoardNumbers({
             }}
           />
         </>
+      ) : board.pattern === "aprilgrid" ? (
+        <>
+          <Size
+            label={texts.tag}
+            value={board.tag_mm}
+            onChange={(tag_mm) => {
+              onBoard({ ...board, tag_mm });
+            }}
+          />
+          <Size
+            label={texts.gap}
+            value={board.gap_mm}
+            onChange={(gap_mm) => {
+              onBoard({ ...board, gap_mm });
+            }}
+          />
+        </>
       ) : (
         <Size
           label={texts.square}

@@ -21,6 +21,8 @@ export function boardOf(pattern: Pattern): Board {
         dictionary: "DICT_5X5_100",
         layout: null,
       };
+    case "aprilgrid":
+      return { pattern, columns: 7, rows: 5, tag_mm: 20, gap_mm: 5 };
   }
 }
 
@@ -29,7 +31,20 @@ export const startingBoard = boardOf("dots");
 /** Plausibility of a board's numbers; the server validates the rest. */
 export function isBoard(board: Board): boolean {
   const counts = [board.columns, board.rows].every((n) => Number.isInteger(n) && n >= 2 && n <= 200);
-  const side = board.pattern === "dots" ? board.pitch_mm : board.square_mm;
-  const inner = board.pattern !== "charuco" || (board.marker_mm > 0 && board.marker_mm < board.square_mm);
-  return counts && side > 0 && side <= 1000 && inner;
+  return counts && areLengths(board);
 }
+
+function areLengths(board: Board): boolean {
+  switch (board.pattern) {
+    case "dots":
+      return isLength(board.pitch_mm);
+    case "checkerboard":
+      return isLength(board.square_mm);
+    case "charuco":
+      return isLength(board.square_mm) && isLength(board.marker_mm) && board.marker_mm < board.square_mm;
+    case "aprilgrid":
+      return isLength(board.tag_mm) && isLength(board.gap_mm) && board.gap_mm <= board.tag_mm;
+  }
+}
+
+const isLength = (mm: number): boolean => mm > 0 && mm <= 1000;

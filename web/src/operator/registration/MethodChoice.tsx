@@ -1,11 +1,15 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
+import type { components } from "../../schema";
 import { useTexts } from "../../texts/TextsContext";
 import { SetupCheckNote } from "../SetupCheckNote";
+import type { Way } from "./RegistrationPage";
 import { RegistrationNow } from "./RegistrationNow";
 import { useActiveProcedures } from "./useActiveProcedures";
 
-const PATH = { points: "points", needles: "needles", surface: "sweep" } as const;
+// All methods but that of the rehearsal, which the server provides. A method without its page would not be offered.
+type Method = Exclude<components["schemas"]["RegistrationMessage"]["method"], "rehearsal">;
+const PATH: Record<Method, Way> = { points: "points", needles: "needles", surface: "sweep" };
 
 /** Registration methods, with what each determines and misses, and their state. */
 export function MethodChoice(): ReactNode {
@@ -18,7 +22,7 @@ export function MethodChoice(): ReactNode {
       <SetupCheckNote />
       <p className="quiet">{texts.choice.ends}</p>
       <ul className="methods">
-        {(Object.keys(PATH) as (keyof typeof PATH)[]).map((method) => (
+        {(Object.keys(PATH) as Method[]).map((method) => (
           <li key={method}>
             <Link href={`/operator/register/${PATH[method]}`} data-testid={`method-${method}`}>
               <strong>{texts.method[method]}</strong>

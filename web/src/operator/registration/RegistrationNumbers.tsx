@@ -28,62 +28,65 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
       max={of("max_tre_mm")}
     />
   );
-  if (method === "needles")
-    return (
-      <>
+  switch (method) {
+    case "needles":
+      return (
+        <>
+          <dl className="limits">
+            {target}
+            <Measure
+              name={texts.worstOffset}
+              hint={texts.worstOffsetHint}
+              value={of("worst_offset_mm")}
+              unit="mm"
+            />
+            <Measure name={texts.worstOffsetPx} value={of("worst_offset_px")} unit="px" digits={1} />
+          </dl>
+          <ul className="said" data-testid="needles-said">
+            <li>{interpolate(texts.depthSaid, { mm: formatNumber(of("depth_sd_mm"), 1) })}</li>
+            <li>{interpolate(texts.acrossSaid, { mm: formatNumber(of("across_sd_mm"), 1) })}</li>
+            <li>{interpolate(texts.tiltSaid, { deg: formatNumber(of("tilt_sd_deg"), 1) })}</li>
+            <li>{interpolate(texts.turnSaid, { deg: formatNumber(of("turn_sd_deg"), 1) })}</li>
+          </ul>
+        </>
+      );
+    case "points":
+      return (
         <dl className="limits">
           {target}
           <Measure
-            name={texts.worstOffset}
-            hint={texts.worstOffsetHint}
-            value={of("worst_offset_mm")}
+            name={texts.fre}
+            hint={texts.freHint}
+            value={of("fre_rms_mm")}
             unit="mm"
+            max={of("max_fre_mm")}
           />
-          <Measure name={texts.worstOffsetPx} value={of("worst_offset_px")} unit="px" digits={1} />
+          <Measure
+            name={texts.leftOut}
+            hint={texts.leftOutHint}
+            value={of("leave_one_out_mm")}
+            unit="mm"
+            max={of("max_left_out_mm")}
+          />
         </dl>
-        <ul className="said" data-testid="needles-said">
-          <li>{interpolate(texts.depthSaid, { mm: formatNumber(of("depth_sd_mm"), 1) })}</li>
-          <li>{interpolate(texts.acrossSaid, { mm: formatNumber(of("across_sd_mm"), 1) })}</li>
-          <li>{interpolate(texts.tiltSaid, { deg: formatNumber(of("tilt_sd_deg"), 1) })}</li>
-          <li>{interpolate(texts.turnSaid, { deg: formatNumber(of("turn_sd_deg"), 1) })}</li>
-        </ul>
-      </>
-    );
-  if (method === "points")
-    return (
-      <dl className="limits">
-        {target}
-        <Measure
-          name={texts.fre}
-          hint={texts.freHint}
-          value={of("fre_rms_mm")}
-          unit="mm"
-          max={of("max_fre_mm")}
-        />
-        <Measure
-          name={texts.leftOut}
-          hint={texts.leftOutHint}
-          value={of("leave_one_out_mm")}
-          unit="mm"
-          max={of("max_left_out_mm")}
-        />
-      </dl>
-    );
-  if (method === "surface")
-    return (
-      <dl className="limits">
-        {target}
-        <Measure
-          name={texts.rms}
-          hint={texts.rmsHint}
-          value={of("rms_mm")}
-          unit="mm"
-          max={of("max_rms_mm")}
-        />
-        <Measure name={texts.movedMm} value={of("moved_mm")} unit="mm" />
-        <Measure name={texts.movedDeg} value={of("moved_deg")} unit="°" />
-        <Measure name={texts.weakest} value={of("weakest_sd_mm")} unit="mm" />
-      </dl>
-    );
-  return <dl className="limits">{target}</dl>;
+      );
+    case "surface":
+      return (
+        <dl className="limits">
+          {target}
+          <Measure
+            name={texts.rms}
+            hint={texts.rmsHint}
+            value={of("rms_mm")}
+            unit="mm"
+            max={of("max_rms_mm")}
+          />
+          <Measure name={texts.movedMm} value={of("moved_mm")} unit="mm" />
+          <Measure name={texts.movedDeg} value={of("moved_deg")} unit="°" />
+          <Measure name={texts.weakest} value={of("weakest_sd_mm")} unit="mm" />
+        </dl>
+      );
+    case "rehearsal":
+      return <dl className="limits">{target}</dl>;
+  }
 }

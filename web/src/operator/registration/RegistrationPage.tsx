@@ -10,7 +10,7 @@ import { PointsPage } from "./points/PointsPage";
 import { SweepPage } from "./sweep/SweepPage";
 
 const WAYS = { points: PointsPage, needles: NeedlesPage, sweep: SweepPage, nudges: NudgesPage } as const;
-type Way = keyof typeof WAYS;
+export type Way = keyof typeof WAYS;
 
 /** Registration: `/operator/register` chooses a method, `/operator/register/<way>` is one. */
 export function RegistrationPage(): ReactNode {

@@ -1,4 +1,8 @@
+import type { components } from "../../schema";
 import { readoutEn } from "./readout";
+
+// A kind of board without its texts would not be offered.
+type ByPattern<Texts> = Record<components["schemas"]["CollectionMessage"]["board"]["pattern"], Texts>;
 
 export const cameraEn = {
   title: "Camera",
@@ -38,17 +42,25 @@ export const cameraEn = {
   calibrateLead:
     "Hold a calibration board in front of the camera. Views are captured automatically when the board is still and in a new position.",
   pattern: "Kind of board",
-  patterns: { dots: "Dots", checkerboard: "Checkerboard", charuco: "ChArUco" },
+  patterns: {
+    dots: "Dots",
+    checkerboard: "Checkerboard",
+    charuco: "ChArUco",
+    aprilgrid: "AprilGrid",
+  } satisfies ByPattern<string>,
   counts: {
     dots: { columns: "Dots in a row", rows: "Rows of dots" },
     checkerboard: { columns: "Inner corners in a row", rows: "Rows of inner corners" },
     charuco: { columns: "Squares in a row", rows: "Rows of squares" },
-  },
+    aprilgrid: { columns: "Tags in a row", rows: "Rows of tags" },
+  } satisfies ByPattern<{ columns: string; rows: string }>,
   pitch: "Dot spacing",
   layout: "Layout",
   layouts: { symmetric: "in a grid", asymmetric: "every other row shifted" },
   square: "Side of a square",
   marker: "Side of a marker",
+  tag: "Side of a tag",
+  gap: "Gap between tags",
   dictionary: "Dictionary",
   boardWrong: "These numbers do not describe a board.",
   collect: "Begin collecting",

@@ -145,6 +145,7 @@ export const caseDe: CaseTexts = {
       dots: "Punkte, 14 × 10, 12 mm",
       checkerboard: "Schachbrett, 10 × 7, 15 mm",
       charuco: "ChArUco, 11 × 8, 15 mm",
+      aprilgrid: "AprilGrid, 7 × 5, 20 mm",
     },
   },
 };

@@ -1,3 +1,8 @@
+import type { components } from "../../schema";
+
+// What has no text here would not be offered.
+type Scene = components["schemas"]["SceneRequest"];
+
 export const caseEn = {
   title: "Cases",
   thisTablet: "this tablet",
@@ -130,13 +135,18 @@ export const caseEn = {
     },
     atOnce: "Any change here restarts the scene at once.",
     skill: "Handling",
-    skills: { wandering: "drifting off at the end", good: "steady", breaching: "through the wall" },
+    skills: {
+      wandering: "drifting off at the end",
+      good: "steady",
+      breaching: "through the wall",
+    } satisfies Record<NonNullable<Scene["skill"]>, string>,
     board: "Board",
     boards: {
       dots: "dots, 14 × 10, 12 mm",
       checkerboard: "checkerboard, 10 × 7, 15 mm",
       charuco: "ChArUco, 11 × 8, 15 mm",
-    },
+      aprilgrid: "AprilGrid, 7 × 5, 20 mm",
+    } satisfies Record<NonNullable<Scene["board"]>, string>,
   },
 };
 
