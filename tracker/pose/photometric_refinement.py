@@ -37,7 +37,6 @@ from tracker.pose.pose_ambiguity import (
     mahalanobis_squared,
     mixture_covariance,
 )
-from tracker.pose.second_order import second_order_covariance
 from tracker.pose.sighting import Seen
 
 # Edges determine a pose to a fraction of a pixel, so a photometric fit that converges farther away is wrong.
@@ -115,7 +114,6 @@ def refine_photometrically(
     if not _is_near(camera, model, fits[first], seen.camera_from_marker):
         return _mixture_of_both(seen, fits[first])
     pose, covariance = fits[first].camera_from_marker, _with_unmodelled_error(fits[first], pixels.noise_grey)
-    covariance = covariance + second_order_covariance(covariance)
     for k in others:
         delta_chi2 = float(costs[k] - costs[first])
         covariance = covariance + flip_covariance(
