@@ -37,7 +37,7 @@ from tracker.navigation.alarms import AlarmLimits
 
 # Maximum time for which an image waits for the alarm step that observed it.
 MAX_REMEMBERED = 600
-# Fields of a snapshot message that are not reproducible: age and stage times.
+# Fields of a snapshot message that are not reproducible: stage times, and the age in older recordings.
 NOT_COMPARED = frozenset({"age_ms", "stage_ms"})
 
 log = structlog.get_logger(__name__)
@@ -285,7 +285,7 @@ class _Replay:
                 ]
             )
             return
-        replayed = json.loads(snapshot_message(snapshot, now_s=0.0).model_dump_json())
+        replayed = json.loads(snapshot_message(snapshot).model_dump_json())
         self.report.poses.add(list(differences(number, recorded, replayed, ignored=NOT_COMPARED)))
         self._snapshots[number] = snapshot
         while len(self._snapshots) > MAX_REMEMBERED:

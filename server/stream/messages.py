@@ -3,6 +3,9 @@
 These models are the wire schema: OpenAPI has them through `GET /api/live`, and the page's types are generated
 from there, so that a renamed field fails the build. The same message is sent as JSON on `/ws/live`, as the
 header of each image on `/ws/view`, and returned by `GET /api/live`.
+
+A message is an envelope, which differs between viewers, and a content, which is that of the instant. Both are
+flat parts of one JSON object, so that a content serialised once can be sent in many envelopes.
 """
 
 from server.live import (
@@ -105,16 +108,23 @@ class ProcessMessage(Message):
     problem: LiveProblemMessage | None
 
 
-class LiveMessage(Message):
-    """The present state of capture, tracking and alarms."""
+class LiveEnvelope(Message):
+    """The fields of a live message that differ between viewers."""
 
-    sequence: int
-    """Grows by one with each instant; a gap is what this client skipped."""
     sent_at_s: float
     """Monotonic clock of the server."""
+    image_age_ms: float | None
+    """Time from the capture of the image to the sending; null without a snapshot."""
     shown_scale_ratio: float
     """Scale of the picture that comes with this message, relative to the camera's image: 1, 0.5 or 0.25. All
     pixels in the message are those of the camera's image."""
+
+
+class LiveContent(Message):
+    """The fields of a live message that all viewers share."""
+
+    sequence: int
+    """Grows by one with each instant; a gap is what this client skipped."""
     source: SourceMessage
     process: ProcessMessage
     snapshot: SnapshotMessage | None
@@ -125,15 +135,34 @@ class LiveMessage(Message):
     """Evaluated with this image."""
 
 
-def live_message(instant: Instant, *, now_s: float, shown_scale_ratio: float = 1.0) -> LiveMessage:
-    """Return the message of an instant, sent at monotonic time `now_s` with a picture of this scale."""
+class LiveMessage(LiveContent, LiveEnvelope):
+    """The present state of capture, tracking and alarms."""
+
+
+def live_message(instant: Instant, *, now_s: float) -> LiveMessage:
+    """Return the message of an instant, sent at monotonic time `now_s`."""
     return LiveMessage(
-        sequence=instant.sequence,
+        **dict(live_envelope(instant, now_s=now_s)), **dict(live_content(instant, now_s=now_s))
+    )
+
+
+def live_envelope(instant: Instant, *, now_s: float, shown_scale_ratio: float = 1.0) -> LiveEnvelope:
+    """Return the envelope of an instant, sent at monotonic time `now_s` with a picture of this scale."""
+    snapshot = instant.snapshot
+    return LiveEnvelope(
         sent_at_s=now_s,
+        image_age_ms=None if snapshot is None else (now_s - snapshot.captured_at_s) * 1000.0,
         shown_scale_ratio=shown_scale_ratio,
+    )
+
+
+def live_content(instant: Instant, *, now_s: float) -> LiveContent:
+    """Return the content of an instant; the durations of its alarms are those at monotonic time `now_s`."""
+    return LiveContent(
+        sequence=instant.sequence,
         source=source_message(instant.source),
         process=process_message(instant.process),
-        snapshot=None if instant.snapshot is None else snapshot_message(instant.snapshot, now_s=now_s),
+        snapshot=None if instant.snapshot is None else snapshot_message(instant.snapshot),
         headline=headline_message(headline_of(instant.snapshot, instant.alarms)),
         alarms=alarms_message(instant.alarms, now_s=now_s),
     )

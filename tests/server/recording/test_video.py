@@ -95,7 +95,7 @@ def test_what_is_drawn_from_messages_is_what_was_drawn_live(mode: str) -> None:
     assert bool(picture.alarms) == (mode != "path")
     width, height = snapshot.size_wh_px
     image = np.full((height, width, 3), 90, dtype=np.uint8)
-    message = SnapshotMessage.model_validate_json(snapshot_message(snapshot, now_s=now_s).model_dump_json())
+    message = SnapshotMessage.model_validate_json(snapshot_message(snapshot).model_dump_json())
     shown = AlarmsMessage.model_validate_json(alarms_message(picture, now_s=now_s).model_dump_json())
     assert belongs_to(setup, message)
     for language in ("en", "de"):
@@ -112,7 +112,7 @@ def test_results_of_another_setup_are_not_drawn() -> None:
     setup = drilled_rod_setup()
     sighting = seen_at(np.array(PLACES["path"]), setup.tools["drill"])
     snapshot = concluded(setup, drill_reference(), {"drill": sighting}, number=1, captured_at_s=1.0)
-    message = snapshot_message(snapshot, now_s=1.0)
+    message = snapshot_message(snapshot)
     channel = setup.channel
     assert isinstance(channel, Channel)
     wider = replace(setup, channel=replace(channel, radius_mm=channel.radius_mm + 0.1))
