@@ -43,7 +43,12 @@ def test_each_image_has_its_capture_time_and_the_overlay_of_its_results(
     recorded: Path, tmp_path: Path
 ) -> None:
     summary = write_video(recorded, tmp_path / "case.mp4")
-    assert (summary.images, summary.gaps, summary.undrawn, summary.is_whole) == (11, 0, 0, True)
+    assert (summary.images, summary.gaps, summary.images_without_overlay, summary.is_whole) == (
+        11,
+        0,
+        0,
+        True,
+    )
     found = frames(tmp_path / "case.mp4")
     assert [at_s for at_s, _ in found] == pytest.approx([n / RATE_HZ for n in range(11)], abs=2e-5)
     images = [one for one in RecordingReader(recorded).messages() if one.topic is Topic.IMAGE]
@@ -124,7 +129,7 @@ def test_results_of_another_setup_are_not_drawn() -> None:
 def test_without_its_setup_an_image_states_that_its_results_are_not_drawn(tmp_path: Path) -> None:
     recording = write_drilling(tmp_path / "case.mcap")
     summary = write_video(recording, tmp_path / "case.mp4", language="de")
-    assert (summary.images, summary.undrawn) == (len(DRILLED), len(DRILLED))
+    assert (summary.images, summary.images_without_overlay) == (len(DRILLED), len(DRILLED))
     images = [one.image for one in RecordingReader(recording).messages() if one.topic is Topic.IMAGE]
     image = images[0]
     assert image is not None
@@ -158,7 +163,7 @@ def test_a_cut_recording_gives_its_images_up_to_there(recorded: Path, tmp_path: 
     summary = write_video(cut, tmp_path / "case.mp4")
     assert 0 < summary.images < 11
     assert not summary.is_whole
-    assert summary.why_cut
+    assert summary.incomplete_reason
     assert len(frames(tmp_path / "case.mp4")) == summary.images
 
 
