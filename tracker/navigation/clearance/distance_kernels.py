@@ -134,22 +134,22 @@ def propagate_nearest(triangles, seeds, nearest, squared):
 
 
 @compiled
-def sweep_neighbours(triangles, nearest, squared, way):
-    """Test for each node the triangles of its three predecessors (`way` 1) or successors (`way` -1).
+def sweep_neighbours(triangles, nearest, squared, direction):
+    """Test for each node the triangles of its predecessors (`direction` 1) or successors (-1) on each axis.
 
     Corrects nodes equidistant to several band nodes.
     """
     size0, size1, size2 = squared.shape
     for a in range(size0):
-        i = a if way > 0 else size0 - 1 - a
+        i = a if direction > 0 else size0 - 1 - a
         for b in range(size1):
-            j = b if way > 0 else size1 - 1 - b
+            j = b if direction > 0 else size1 - 1 - b
             for c in range(size2):
-                k = c if way > 0 else size2 - 1 - c
+                k = c if direction > 0 else size2 - 1 - c
                 for axis in range(3):
-                    u = i - way if axis == 0 else i
-                    v = j - way if axis == 1 else j
-                    w = k - way if axis == 2 else k
+                    u = i - direction if axis == 0 else i
+                    v = j - direction if axis == 1 else j
+                    w = k - direction if axis == 2 else k
                     if not (0 <= u < size0 and 0 <= v < size1 and 0 <= w < size2):
                         continue
                     m = nearest[u, v, w]
