@@ -39,7 +39,7 @@ class Problem:
     code: str
     message: str
     remedy: str
-    context: dict[str, object] = field(default_factory=dict)
+    context: dict[str, object] = field(default_factory=dict, hash=False)
 
     @classmethod
     def from_error(cls, error: NavigationError) -> "Problem":

@@ -1,9 +1,14 @@
-"""Number format shared by video, page and report."""
+"""Number formats shared by video, page, messages and reports."""
 
 import math
 from decimal import ROUND_HALF_UP, Decimal
 
 NOT_KNOWN = "--"
+
+
+def finite(value: float | None) -> float | None:
+    """Return the number, or None where it is infinite or NaN, which JSON lacks."""
+    return None if value is None or not math.isfinite(value) else value
 
 
 def format_number(value: float, *, decimals: int = 1) -> str:

@@ -81,7 +81,7 @@ class CaseSetup:
         channel: The active channel.
         registration: Registration of its vertebra.
         registered_from_s: Time of its first capture or last check; None if before this run.
-        guide: Wall and screw of this pedicle, besides its channel.
+        drill_reference: Wall and screw of this pedicle, besides its channel.
         withheld: Why numbers are withheld although everything is known.
         confirmed_from_s: see `confirmation_reason`.
         ct_id: of the CT on which the channel was planned; empty if unknown.

@@ -12,13 +12,13 @@ import threading
 from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
-from math import isfinite
 from pathlib import Path
 from typing import Protocol
 
 import structlog
 
 from server.alarms.entries import Entry, Line
+from server.number_format import finite
 from server.store import CaseStore, DocumentKind, StoreError, says_archive, translate_errors
 from tracker.errors import InvalidInput, NavigationError
 
@@ -223,10 +223,7 @@ def _doubted(line: Line) -> Line:
 
 def finite_line(line: Line) -> Line:
     """Return the line with null for values that JSON cannot represent."""
-    return {
-        key: None if isinstance(value, float) and not isfinite(value) else value
-        for key, value in line.items()
-    }
+    return {key: finite(value) if isinstance(value, float) else value for key, value in line.items()}
 
 
 def append_lines(file: Path, lines: Sequence[Line]) -> None:

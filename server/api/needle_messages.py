@@ -91,6 +91,35 @@ class OverlayMessage(Message):
         )
 
 
+class OverlayQuery(ViewMessage):
+    """A slice overlay as query parameters: the camera position, and what differs from its placement by it."""
+
+    vertebra: VertebraName | None = None
+    """Name in the plan; default: the vertebra of the active channel."""
+    x_px: Pixel | None = None
+    y_px: Pixel | None = None
+    rotation_deg: Annotated[float, Field(ge=-360.0, le=360.0)] = 0.0
+    scale_px_per_mm: Annotated[float | None, Field(ge=0.05, le=100.0)] = None
+    fade_ratio: Annotated[float, Field(ge=0.0, le=1.0)] = 0.5
+
+    @property
+    def view(self) -> ViewMessage:
+        """Return the camera position."""
+        return ViewMessage(**self.model_dump(include=set(ViewMessage.model_fields)))
+
+    def overlay_from(self, first: SliceOverlay) -> SliceOverlay:
+        """Return the placement by the camera position, `first`, with what was requested instead."""
+        x_px, y_px = first.shift_px
+        return SliceOverlay(
+            shift_px=np.array(
+                [x_px if self.x_px is None else self.x_px, y_px if self.y_px is None else self.y_px]
+            ),
+            rotation_deg=self.rotation_deg,
+            scale_px_per_mm=first.scale_px_per_mm if self.scale_px_per_mm is None else self.scale_px_per_mm,
+            fade_ratio=self.fade_ratio,
+        )
+
+
 class MarkedNeedleMessage(Message):
     """A needle marked in the image."""
 

@@ -10,24 +10,19 @@ from server.api.errors import rejections
 from server.api.needle_messages import (
     LaidMessage,
     LaidRequest,
-    Measured,
     NeedlesConclusion,
     NeedlesRequest,
-    OverlayMessage,
-    Pixel,
+    OverlayQuery,
     ProposalsMessage,
-    ViewMessage,
     laid_message,
     proposals_message,
 )
-from server.api.registration_messages import VertebraName
 from server.api.slice_images import window_from_query
 from server.procedure.ct import CtProvider
 from server.procedure.registration import RegistrationSteps, touched_points
 from server.procedure.registration.needle_picture import overlay_picture
 from server.procedure.registration.needle_records import NeedleScene, PlacedSlice
 from server.store import Current
-from tracker.registration.needles import PatientEnd
 
 JPEG = "image/jpeg"
 STORE_ERRORS = rejections(409, 422, 503, 507)
@@ -83,39 +78,10 @@ def _add_picture(router: APIRouter, steps: RegistrationSteps, opened: CtProvider
     @router.get(
         "/overlay.jpg", response_class=Response, responses={200: {"content": {JPEG: {}}}, **IMAGE_ERRORS}
     )
-    def overlay_jpg(
-        vertical_mm: Annotated[Measured, Query()],
-        horizontal_mm: Annotated[Measured, Query()],
-        vertebra: Annotated[VertebraName | None, Query()] = None,
-        azimuth_deg: Annotated[float, Query(ge=-180.0, le=180.0)] = 0.0,
-        patient_end: Annotated[PatientEnd, Query()] = PatientEnd.FEET,
-        x_px: Annotated[Pixel | None, Query()] = None,
-        y_px: Annotated[Pixel | None, Query()] = None,
-        rotation_deg: Annotated[float, Query(ge=-360.0, le=360.0)] = 0.0,
-        scale_px_per_mm: Annotated[float | None, Query(ge=0.05, le=100.0)] = None,
-        fade_ratio: Annotated[float, Query(ge=0.0, le=1.0)] = 0.5,
-    ) -> Response:
+    def overlay_jpg(requested: Annotated[OverlayQuery, Query()]) -> Response:
         """Return the newest image with the translucent slice; default placement from the ruler."""
-        view = ViewMessage(
-            vertical_mm=vertical_mm,
-            horizontal_mm=horizontal_mm,
-            azimuth_deg=azimuth_deg,
-            patient_end=patient_end,
-        )
-        scene = step.scene(NeedlesRequest(view=view, vertebra=vertebra).order)
-        first = step.lay(scene, None).overlay
-        laid = step.lay(
-            scene,
-            OverlayMessage(
-                shift_px=[
-                    float(first.shift_px[0]) if x_px is None else x_px,
-                    float(first.shift_px[1]) if y_px is None else y_px,
-                ],
-                rotation_deg=rotation_deg,
-                scale_px_per_mm=first.scale_px_per_mm if scale_px_per_mm is None else scale_px_per_mm,
-                fade_ratio=fade_ratio,
-            ).record,
-        )
+        scene = step.scene(NeedlesRequest(view=requested.view, vertebra=requested.vertebra).order)
+        laid = step.lay(scene, requested.overlay_from(step.lay(scene, None).overlay))
         drawn = overlay_picture(laid, opened.current().volume, window_from_query(None, None, None))
         encoded, content = cv2.imencode(".jpg", drawn)
         if not encoded:

@@ -12,13 +12,14 @@ from server.api.jobs import JobMessage, job_message
 from server.clock import utc_text
 from server.errors import RecordingError
 from server.jobs import Job
+from server.number_format import finite
 from server.recording.comments import MAX_TEXT_LENGTH, Comment, RecordingComments
 from server.recording.review import RecordingReview, Samples, sampled
 from server.recording.timeline import FIGURES, STATUSES, EventKind, RecordingIndex, TimelineEvent
 from server.security.person import person_of
 from server.stream.alarm_messages import AlarmsMessage
 from server.stream.assessment_messages import TextMessage, text_message
-from server.stream.message import Message, finite
+from server.stream.message import Message
 from server.stream.snapshot_messages import SnapshotMessage
 from server.texts import LANGUAGES, STATES, Text, alarm_title
 from tracker.navigation import AbsentReason, Status

@@ -200,7 +200,7 @@ def recording_exports_router(exports: RecordingExports) -> APIRouter:
         """Write a recording as a video (MP4) with the overlay, in a job.
 
         Its result contains `file` for the download, `images`, `gaps` (periods without images, marked as such)
-        and `undrawn` (images without recorded results, marked with the reason). Requires PyAV.
+        and `images_without_overlay` (images without recorded results, marked with the reason). Requires PyAV.
         """
         return job_message(exports.start_video(name, requested.language))
 

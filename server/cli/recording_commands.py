@@ -122,7 +122,7 @@ def _write_video(file: Path, target: Path, language: Literal["en", "de"]) -> Non
     typer.echo(f"{summary.images} images")
     if summary.gaps:
         typer.echo(f"{summary.gaps} gaps without images, marked in the video")
-    if summary.undrawn:
-        typer.echo(f"{summary.undrawn} images without recorded results, marked in the video")
+    if summary.images_without_overlay:
+        typer.echo(f"{summary.images_without_overlay} images without recorded results, marked in the video")
     if not summary.is_whole:
-        typer.echo(f"the recording is incomplete: {summary.why_cut}; it was read up to that point")
+        typer.echo(f"the recording is incomplete: {summary.incomplete_reason}; it was read up to that point")

@@ -11,9 +11,10 @@ import typer
 
 from server.cli.channel_check import ChannelCheck, check_channel
 from server.cli.landmark_rows import LandmarkRows, read_landmarks
-from server.cli.registration_form import finite, registration_form
+from server.cli.registration_form import registration_form
 from server.cli.registration_transform import write_transform
 from server.config_file import load_config
+from server.number_format import finite
 from server.point_limits import point_gate, point_settings
 from tracker.errors import InvalidInput, RegistrationError
 from tracker.geometry import Array

@@ -3,8 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
+from server.number_format import finite
 from tracker.errors import RegistrationError
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
 from tracker.plan.remark import Remark
@@ -55,11 +54,6 @@ def registration_form(
         "limits": {name: finite(limit) for name, limit in limits.items()},
         "gate": {"passed": not failures, "failures": [_text(failure) for failure in failures]},
     }
-
-
-def finite(number: float | None) -> float | None:
-    """Return the number, or None if it is infinite."""
-    return None if number is None or not np.isfinite(number) else number
 
 
 def _text(one: Remark | RegistrationError) -> dict[str, str]:

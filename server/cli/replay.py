@@ -40,7 +40,7 @@ def describe_file(path: Path, *, as_json: bool) -> int:
             "images": images,
             "duration_s": duration_s,
             "is_whole": reader.is_whole,
-            "why_cut": reader.why_cut,
+            "incomplete_reason": reader.incomplete_reason,
             "notes": notes,
             "session": None if session is None else session.model_dump(mode="json"),
         }
@@ -50,7 +50,7 @@ def describe_file(path: Path, *, as_json: bool) -> int:
         typer.echo(f"recorded {session.started_at} from {session.source}")
         typer.echo(f"by Coaxial {session.product_version} on {session.machine}, Python {session.python}")
     typer.echo(f"{images} images in {duration_s:.1f} s, {path.stat().st_size / 1e6:.1f} MB")
-    _print_end(notes, is_whole=reader.is_whole, why_cut=reader.why_cut)
+    _print_end(notes, is_whole=reader.is_whole, incomplete_reason=reader.incomplete_reason)
     return EQUAL if images else DIFFERENT
 
 
@@ -86,8 +86,12 @@ def _print(report: ReplayReport) -> None:
     if not report.images:
         typer.echo("no image could be compared")
     if report.is_damaged:
-        typer.echo(f"the file is damaged: {report.why_cut}; nothing after that point was compared")
-    _print_end(report.remarks, is_whole=report.is_whole or report.is_damaged, why_cut=report.why_cut)
+        typer.echo(f"the file is damaged: {report.incomplete_reason}; nothing after that point was compared")
+    _print_end(
+        report.remarks,
+        is_whole=report.is_whole or report.is_damaged,
+        incomplete_reason=report.incomplete_reason,
+    )
 
 
 def _print_differences(what: str, found: Differences, compared: str, unit: str) -> None:
@@ -99,11 +103,11 @@ def _print_differences(what: str, found: Differences, compared: str, unit: str) 
     typer.echo(f"  largest difference: {found.worst}")
 
 
-def _print_end(remarks: list[str], *, is_whole: bool, why_cut: str) -> None:
+def _print_end(remarks: list[str], *, is_whole: bool, incomplete_reason: str) -> None:
     for remark in remarks:
         typer.echo(f"note: {remark}")
     if not is_whole:
-        typer.echo(f"the file is incomplete: {why_cut}; it was read up to that point")
+        typer.echo(f"the file is incomplete: {incomplete_reason}; it was read up to that point")
 
 
 def _values(report: ReplayReport) -> dict[str, object]:
@@ -120,7 +124,7 @@ def _values(report: ReplayReport) -> dict[str, object]:
         "remarks": report.remarks,
         "is_whole": report.is_whole,
         "is_damaged": report.is_damaged,
-        "why_cut": report.why_cut,
+        "incomplete_reason": report.incomplete_reason,
     }
 
 

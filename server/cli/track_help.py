@@ -16,6 +16,8 @@ camera_from_marker: rotation (3x3) and translation_mm, with --camera.
 
 pose_covariance: 6x6 in mm and rad, translation first, then rotation
 as a small left-multiplied rotation vector in the camera's frame.
+For a point at a lever L in mm, R being the rotation part, add
+(L/2)^2 (trace(R)^2 + 2 trace(R R)) to its variance along each axis.
 
 reason: why the marker was not detected.
 NO_CANDIDATE: no quadrilateral in the image matches the marker.

@@ -1,11 +1,11 @@
 """Report of a verification as tables and JSON."""
 
-import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
 from rich.table import Table
 
+from server.number_format import finite
 from tracker.registration import AnchoredTo
 from tracker.verification import Figures, TheatreRows, Variant, VariantFigures, VerificationSettings, name_of
 from tracker.verification.figures import QUANTITIES, QuantityFigures, RegistrationFigures, Share
@@ -104,7 +104,7 @@ def _registration_value(one: RegistrationFigures) -> dict[str, object]:
         "theatres": one.theatres,
         "rejected": dict(sorted(one.rejected.items())),
         "check_passed": one.check_passed,
-        "check_median_mm": _finite(one.check_median_mm),
+        "check_median_mm": finite(one.check_median_mm),
     }
 
 
@@ -158,7 +158,7 @@ def row_values(theatre: TheatreRows) -> Iterator[dict[str, object]]:
             "at_s": one.at_s,
             "phase": one.phase.value,
             "counts": one.counts,
-            "since_move_s": _finite(one.since_move_s),
+            "since_move_s": finite(one.since_move_s),
             "absent": one.absent or None,
             **{
                 f"{name}_{key}": value
@@ -171,9 +171,5 @@ def row_values(theatre: TheatreRows) -> Iterator[dict[str, object]]:
                 )
             },
             "is_through": one.is_through,
-            "through_ratio": _finite(one.through_ratio),
+            "through_ratio": finite(one.through_ratio),
         }
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

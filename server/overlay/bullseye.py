@@ -102,10 +102,10 @@ def draw_bullseye(image: Image, inset: Inset, target: Target) -> None:
     if float(np.hypot(*seen.tip_mm)) > extent_mm:
         _arrow(image, inset, seen.tip_mm)
         return
-    way = np.stack(
+    axis_mm = np.stack(
         [_clamped(place, seen.tip_mm, extent_mm) for place in (seen.at_entry_mm, seen.at_target_mm)]
     )
-    stroke(image, [inset.px(way)], DRILL_ORANGE, width_px=2.0 * scale)
+    stroke(image, [inset.px(axis_mm)], DRILL_ORANGE, width_px=2.0 * scale)
     if float(np.hypot(*seen.at_target_mm)) <= extent_mm:
         stroke(image, [inset.px(seen.at_target_mm + SQUARE)], DRILL_ORANGE, width_px=2.0 * scale)
     if target.tip_covariance_mm2 is not None:
@@ -121,12 +121,12 @@ def _clamped(place_mm: Array, tip_mm: Array, extent_mm: float) -> Array:
     """Clamp a point to the extent along its line from the tip; return the tip if no point of it is inside."""
     if not np.isfinite(place_mm).all():
         return tip_mm
-    way = place_mm - tip_mm
-    a, b, c = float(way @ way), float(way @ tip_mm), float(tip_mm @ tip_mm) - extent_mm**2
+    direction = place_mm - tip_mm
+    a, b, c = float(direction @ direction), float(direction @ tip_mm), float(tip_mm @ tip_mm) - extent_mm**2
     if a < 1e-12:
         return place_mm
     farthest = (-b + np.sqrt(max(b * b - a * c, 0.0))) / a
-    return np.asarray(tip_mm + min(1.0, farthest) * way)
+    return np.asarray(tip_mm + min(1.0, farthest) * direction)
 
 
 def _inside(ring_mm: Array, extent_mm: float) -> Array:
@@ -136,10 +136,10 @@ def _inside(ring_mm: Array, extent_mm: float) -> Array:
 
 
 def _arrow(image: Image, inset: Inset, tip_mm: Array) -> None:
-    way = tip_mm / np.hypot(*tip_mm)
-    across = 0.13 * inset.extent_mm * np.array([-way[1], way[0]])
-    back = 0.78 * inset.extent_mm * way
-    head = np.stack([back + across, inset.extent_mm * way, back - across])
+    direction = tip_mm / np.hypot(*tip_mm)
+    across = 0.13 * inset.extent_mm * np.array([-direction[1], direction[0]])
+    back = 0.78 * inset.extent_mm * direction
+    head = np.stack([back + across, inset.extent_mm * direction, back - across])
     stroke(image, [inset.px(head)], DRILL_ORANGE, width_px=3.0 * inset.scale)
 
 

@@ -7,7 +7,6 @@ the registration of its vertebra: after a new one it is out of date, because bot
 import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from math import isfinite
 
 import numpy as np
 import structlog
@@ -15,6 +14,7 @@ import structlog
 from server.config import Point, Section
 from server.errors import SetupOrderError
 from server.live import LiveHub
+from server.number_format import finite
 from server.procedure.documents import parse_document
 from server.procedure.open_case import require_open_case
 from server.procedure.plan import ActiveChannel, PlanRepository, is_same_channel
@@ -337,9 +337,9 @@ class PlacementStep:
             grade=None if wall is None else wall.grade,
             figures={
                 name: PlacedFigure(
-                    value=_finite(one.value),
-                    limit=_finite(one.limit),
-                    error_95=_finite(one.error_95),
+                    value=finite(one.value),
+                    limit=finite(one.limit),
+                    error_95=finite(one.error_95),
                     status=one.status,
                 )
                 for name, one in assessment.figures.items()
@@ -366,7 +366,3 @@ def _changed() -> SetupOrderError:
         "the newest image was computed with another channel or registration than the case has now",
         WAIT,
     )
-
-
-def _finite(value: float) -> float | None:
-    return value if isfinite(value) else None

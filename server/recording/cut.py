@@ -88,7 +88,7 @@ def cut_recording(
             if reader.is_damaged:
                 raise RecordingError(
                     "RECORDING_DAMAGED",
-                    f"{recording.name} cannot be read up to {to_s:.1f} s: {reader.why_cut}",
+                    f"{recording.name} cannot be read up to {to_s:.1f} s: {reader.incomplete_reason}",
                     "Choose a part before the damage, or take the recording from another copy.",
                 )
             piece.end(recording.name, first_s=first_s, from_s=from_s, to_s=to_s)

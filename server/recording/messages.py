@@ -9,8 +9,9 @@ from pydantic import Field
 from server.alarms.evaluation import AlarmCall, AlarmStep
 from server.capture.address import source_from_text
 from server.config import Config
+from server.number_format import finite
 from server.recording_file.topics import FORMAT_VERSION
-from server.stream.message import Message, finite
+from server.stream.message import Message
 from tracker.camera import CameraControl
 from tracker.navigation.alarms import (
     Alarm,

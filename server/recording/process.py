@@ -419,7 +419,7 @@ class Recording:
             is_predicted=report.is_predicted,
         ).model_dump_json()
         packed = self._packer.pack(image, entry.encoded)
-        text = snapshot_message(snapshot, now_s=self._clock()).model_dump_json()
+        text = snapshot_message(snapshot).model_dump_json()
 
         def write() -> None:
             self._writer.add_json(Topic.TRACKED, at_s, tracked, sequence=number)

@@ -37,7 +37,7 @@ from tracker.navigation.alarms import AlarmLimits
 
 # Maximum time for which an image waits for the alarm step that observed it.
 MAX_REMEMBERED = 600
-# Fields of a snapshot message that are not reproducible: age and stage times.
+# Fields of a snapshot message that are not reproducible: stage times, and the age in older recordings.
 NOT_COMPARED = frozenset({"age_ms", "stage_ms"})
 
 log = structlog.get_logger(__name__)
@@ -109,7 +109,7 @@ class ReplayReport:
         remarks: Notes of the recording, and reasons why something was not compared.
         is_whole: Whether the file is complete.
         is_damaged: Whether a part of the file is damaged.
-        why_cut: Why it was not read to its end.
+        incomplete_reason: Why it was not read to its end.
     """
 
     session: SessionMessage | None = None
@@ -123,7 +123,7 @@ class ReplayReport:
     remarks: list[str] = field(default_factory=list)
     is_whole: bool = False
     is_damaged: bool = False
-    why_cut: str = ""
+    incomplete_reason: str = ""
 
     @property
     def is_equal(self) -> bool:
@@ -161,7 +161,7 @@ def check_recording(path: Path, *, limits: AlarmLimits | None = None) -> ReplayR
         replay.take(message)
     replay.end()
     report = replay.report
-    report.is_whole, report.why_cut = reader.is_whole, reader.why_cut
+    report.is_whole, report.incomplete_reason = reader.is_whole, reader.incomplete_reason
     report.is_damaged = reader.is_damaged
     return report
 
@@ -287,7 +287,7 @@ class _Replay:
                 ]
             )
             return
-        replayed = json.loads(snapshot_message(snapshot, now_s=0.0).model_dump_json())
+        replayed = json.loads(snapshot_message(snapshot).model_dump_json())
         self.report.poses.add(list(differences(number, recorded, replayed, ignored=NOT_COMPARED)))
         self._snapshots[number] = snapshot
         while len(self._snapshots) > MAX_REMEMBERED:

@@ -69,16 +69,16 @@ class VideoSummary:
     Attributes:
         images: Number of recorded images in the video.
         gaps: Number of cards, one for each period without an image.
-        undrawn: Number of images whose results could not be drawn.
+        images_without_overlay: Number of images whose results could not be drawn.
         is_whole: Whether the recording is complete.
-        why_cut: Why it is not.
+        incomplete_reason: Why it is not.
     """
 
     images: int
     gaps: int
-    undrawn: int
+    images_without_overlay: int
     is_whole: bool
-    why_cut: str = ""
+    incomplete_reason: str = ""
 
 
 def write_video(
@@ -121,9 +121,9 @@ def write_video(
     return VideoSummary(
         images=images,
         gaps=gaps,
-        undrawn=pictures.undrawn,
+        images_without_overlay=pictures.images_without_overlay,
         is_whole=pictures.is_whole,
-        why_cut=pictures.why_cut,
+        incomplete_reason=pictures.incomplete_reason,
     )
 
 
@@ -155,8 +155,8 @@ class _Pictures:
     """Pictures of a video in order."""
 
     def __init__(self, path: Path, index: RecordingIndex, language: Language) -> None:
-        self.undrawn = 0
-        self.is_whole, self.why_cut = False, ""
+        self.images_without_overlay = 0
+        self.is_whole, self.incomplete_reason = False, ""
         self._path, self._index, self._language = path, index, language
         self._max_gap_s = MAX_GAP_S
         self._state: TrackingState | None = None
@@ -188,7 +188,7 @@ class _Pictures:
                         size_wh_px = image.packed.size_wh_px
                     yield self._picture(number, at_s, size_wh_px, image, message)
                     image, before_s, number = None, at_s, number + 1
-        self.is_whole, self.why_cut = reader.is_whole, reader.why_cut
+        self.is_whole, self.incomplete_reason = reader.is_whole, reader.incomplete_reason
 
     def _picture(
         self,
@@ -204,7 +204,7 @@ class _Pictures:
             pixels, note = np.zeros((height, width, 3), dtype=np.uint8), NOT_DECODED[self._language]
         else:
             pixels, note = self._drawn(number, pixels, snapshot)
-        self.undrawn += bool(note) and note != NO_ALARMS[self._language]
+        self.images_without_overlay += bool(note) and note != NO_ALARMS[self._language]
         place = f"{IMAGE[self._language]} {image.sequence}, {number + 1} / {len(self._index)}"
         words = f"{self._time(at_s)} · {place}"
         return _Picture(with_strip(pixels, words, note=note, language=self._language), at_s)

@@ -79,7 +79,7 @@ class RecordingReader:
     Attributes:
         is_whole: Whether the file is complete; known after `messages`.
         is_damaged: Whether a part of the file is damaged.
-        why_cut: Why it was not read to its end; empty if it was.
+        incomplete_reason: Why it was not read to its end; empty if it was.
         library: The program that wrote it, with its version.
         channels, schemas: Channels and schemas of the messages read so far, by id.
 
@@ -88,7 +88,7 @@ class RecordingReader:
     """
 
     def __init__(self, path: Path) -> None:
-        self.is_whole, self.is_damaged, self.why_cut = False, False, ""
+        self.is_whole, self.is_damaged, self.incomplete_reason = False, False, ""
         self.channels: dict[int, Channel] = {}
         self.schemas: dict[int, Schema] = {}
         try:
@@ -123,11 +123,11 @@ class RecordingReader:
                 elif isinstance(record, Footer):
                     self.is_whole = True
         except CRCValidationError:
-            self.is_damaged, self.why_cut = True, "a checksum is wrong"
+            self.is_damaged, self.incomplete_reason = True, "a checksum is wrong"
         except (McapError, ValueError, EOFError, struct.error, LookupError, *TOO_LONG):
-            self.why_cut = "it ends inside a chunk"
+            self.incomplete_reason = "it ends inside a chunk"
         else:
-            self.why_cut = "" if self.is_whole else "its end record is missing"
+            self.incomplete_reason = "" if self.is_whole else "its end record is missing"
         finally:
             self._file.close()
 

@@ -1,24 +1,19 @@
 """File of measured latencies in the home folder; they refer to a camera and a screen, not to a case."""
 
-import json
-import os
-import secrets
-from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
 import structlog
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
 from server.latency import LatencyResult
 from server.store.errors import translate_errors
-from server.store.home import sync_file, sync_folder
+from server.store.private_file import PrivateJsonFile
 
 FORM = 1
 LATENCY_FILE = "latency.json"
 # Maximum number of cameras, each with one result.
 MAX_CAMERAS = 20
-OWNER_ONLY = 0o600
 
 _RESULTS = TypeAdapter(tuple[LatencyResult, ...])
 _log = structlog.get_logger(__name__)
@@ -32,8 +27,7 @@ class LatencyFile:
     """
 
     def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._file = folder / LATENCY_FILE
+        self._file = PrivateJsonFile(folder / LATENCY_FILE, form=FORM)
 
     def results(self) -> tuple[LatencyResult, ...]:
         """Return one result per camera, newest first; empty if the file is damaged, which is logged.
@@ -41,18 +35,13 @@ class LatencyFile:
         Raises:
             StoreError: the file cannot be read.
         """
-        with translate_errors(self._folder):
-            if not self._file.exists():
-                return ()
-            content = self._file.read_bytes()
         try:
-            stored = json.loads(content)
-            if stored["form"] != FORM:
-                raise ValueError(f"its format is {stored['form']!r}")  # noqa: TRY301  logged below with all others
-            return _RESULTS.validate_python(stored["results"])
-        except (ValueError, KeyError, TypeError, ValidationError) as error:
+            with translate_errors(self._file.path.parent):
+                stored = self._file.read()
+            return () if stored is None else _RESULTS.validate_python(stored["results"])
+        except (ValueError, KeyError) as error:
             _log.error(
-                "the file of latencies is damaged; measure again", file=str(self._file), why=str(error)
+                "the file of latencies is damaged; measure again", file=str(self._file.path), why=str(error)
             )
             return ()
 
@@ -71,19 +60,6 @@ class LatencyFile:
             StoreError: STORE_FULL and others; the stored results are kept.
         """
         others = [one for one in self.results() if one.camera != result.camera]
-        self._write([result, *others][:MAX_CAMERAS])
-
-    def _write(self, results: Iterable[LatencyResult]) -> None:
-        content = json.dumps({"form": FORM, "results": [asdict(one) for one in results]}, indent=1)
-        part = self._file.with_name(f".{LATENCY_FILE}.{secrets.token_hex(4)}")
-        with translate_errors(self._folder):
-            descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWNER_ONLY)
-            try:
-                with os.fdopen(descriptor, "wb") as file:
-                    file.write(content.encode())
-                    file.flush()
-                    sync_file(file.fileno())
-                part.replace(self._file)
-                sync_folder(self._folder)
-            finally:
-                part.unlink(missing_ok=True)
+        results = [asdict(one) for one in [result, *others][:MAX_CAMERAS]]
+        with translate_errors(self._file.path.parent):
+            self._file.write({"results": results})

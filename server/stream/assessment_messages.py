@@ -2,7 +2,8 @@
 
 from typing import Literal
 
-from server.stream.message import Message, finite
+from server.number_format import finite
+from server.stream.message import Message
 from server.stream.pose_messages import AbsentMessage, absent_message
 from server.texts import Headline, Text, Tone
 from tracker.navigation import (

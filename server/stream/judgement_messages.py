@@ -4,7 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from server.stream.message import Message, finite
+from server.number_format import finite
+from server.stream.message import Message
 from server.stream.pose_messages import AbsentMessage, absent_message
 from tracker.navigation import Absent, Deviation
 from tracker.navigation.clearance import DrillClearance, NotEntered, WallProximity, WallSource

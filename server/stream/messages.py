@@ -3,7 +3,12 @@
 These models are the wire schema: OpenAPI has them through `GET /api/live`, and the page's types are generated
 from there, so that a renamed field fails the build. The same message is sent as JSON on `/ws/live`, as the
 header of each image on `/ws/view`, and returned by `GET /api/live`.
+
+A message is an envelope, which differs between viewers, and a content, which is that of the instant. Both are
+flat parts of one JSON object, so that a content serialised once can be sent in many envelopes.
 """
+
+from functools import lru_cache
 
 from server.live import (
     CameraMode,
@@ -48,6 +53,8 @@ class LiveProblemMessage(Message):
     code: str
     message: TextMessage
     remedy: TextMessage
+    is_translated: bool
+    """Whether message and remedy are translated; otherwise they are in English for every language."""
     context: dict[str, object]
 
 
@@ -105,16 +112,23 @@ class ProcessMessage(Message):
     problem: LiveProblemMessage | None
 
 
-class LiveMessage(Message):
-    """The present state of capture, tracking and alarms."""
+class LiveEnvelope(Message):
+    """The fields of a live message that differ between viewers."""
 
-    sequence: int
-    """Grows by one with each instant; a gap is what this client skipped."""
     sent_at_s: float
     """Monotonic clock of the server."""
+    image_age_ms: float | None
+    """Time from the capture of the image to the sending; null without a snapshot."""
     shown_scale_ratio: float
     """Scale of the picture that comes with this message, relative to the camera's image: 1, 0.5 or 0.25. All
     pixels in the message are those of the camera's image."""
+
+
+class LiveContent(Message):
+    """The fields of a live message that all viewers share."""
+
+    sequence: int
+    """Grows by one with each instant; a gap is what this client skipped."""
     source: SourceMessage
     process: ProcessMessage
     snapshot: SnapshotMessage | None
@@ -125,15 +139,34 @@ class LiveMessage(Message):
     """Evaluated with this image."""
 
 
-def live_message(instant: Instant, *, now_s: float, shown_scale_ratio: float = 1.0) -> LiveMessage:
-    """Return the message of an instant, sent at monotonic time `now_s` with a picture of this scale."""
+class LiveMessage(LiveContent, LiveEnvelope):
+    """The present state of capture, tracking and alarms."""
+
+
+def live_message(instant: Instant, *, now_s: float) -> LiveMessage:
+    """Return the message of an instant, sent at monotonic time `now_s`."""
     return LiveMessage(
-        sequence=instant.sequence,
+        **dict(live_envelope(instant, now_s=now_s)), **dict(live_content(instant, now_s=now_s))
+    )
+
+
+def live_envelope(instant: Instant, *, now_s: float, shown_scale_ratio: float = 1.0) -> LiveEnvelope:
+    """Return the envelope of an instant, sent at monotonic time `now_s` with a picture of this scale."""
+    snapshot = instant.snapshot
+    return LiveEnvelope(
         sent_at_s=now_s,
+        image_age_ms=None if snapshot is None else (now_s - snapshot.captured_at_s) * 1000.0,
         shown_scale_ratio=shown_scale_ratio,
+    )
+
+
+def live_content(instant: Instant, *, now_s: float) -> LiveContent:
+    """Return the content of an instant; the durations of its alarms are those at monotonic time `now_s`."""
+    return LiveContent(
+        sequence=instant.sequence,
         source=source_message(instant.source),
         process=process_message(instant.process),
-        snapshot=None if instant.snapshot is None else snapshot_message(instant.snapshot, now_s=now_s),
+        snapshot=None if instant.snapshot is None else snapshot_message(instant.snapshot),
         headline=headline_message(headline_of(instant.snapshot, instant.alarms)),
         alarms=alarms_message(instant.alarms, now_s=now_s),
     )
@@ -144,7 +177,7 @@ def source_message(source: SourceStatus) -> SourceMessage:
     return SourceMessage(
         name=source.name,
         state=source.state,
-        problem=_live_problem_message(source.problem),
+        problem=None if source.problem is None else _live_problem_message(source.problem),
         images=source.images,
         skipped_images=source.skipped_images,
         rate_hz=source.rate_hz,
@@ -187,18 +220,21 @@ def _mode_message(mode: CameraMode | None) -> CameraModeMessage | None:
 def process_message(process: ProcessStatus) -> ProcessMessage:
     """Return the message of the tracking process."""
     return ProcessMessage(
-        state=process.state, restarts=process.restarts, problem=_live_problem_message(process.problem)
+        state=process.state,
+        restarts=process.restarts,
+        problem=None if process.problem is None else _live_problem_message(process.problem),
     )
 
 
-def _live_problem_message(problem: Problem | None) -> LiveProblemMessage | None:
-    if problem is None:
-        return None
+# A problem persists for many images, and its translation is searched for among all templates: 0.5 ms.
+@lru_cache(maxsize=16)
+def _live_problem_message(problem: Problem) -> LiveProblemMessage:
     why = error_reason(problem.code, problem.message, problem.remedy, problem.context)
     return LiveProblemMessage(
         code=problem.code,
         message=text_message(why.message),
         remedy=text_message(why.remedy),
+        is_translated=why.is_translated,
         context=problem.context,
     )
 

@@ -101,8 +101,6 @@ class SnapshotMessage(Message):
     image_number: int
     captured_at_s: float
     """Monotonic clock of the server."""
-    age_ms: float
-    """Time from the capture to the creation of this message."""
     width_px: int
     height_px: int
     camera_calibrated: bool
@@ -128,13 +126,12 @@ class SnapshotMessage(Message):
     skipped_images: int
 
 
-def snapshot_message(snapshot: NavigationSnapshot, *, now_s: float) -> SnapshotMessage:
-    """Return the message of a snapshot, sent at monotonic time `now_s`."""
+def snapshot_message(snapshot: NavigationSnapshot) -> SnapshotMessage:
+    """Return the message of a snapshot."""
     setup, registration = snapshot.setup, snapshot.setup.registration
     return SnapshotMessage(
         image_number=snapshot.image_number,
         captured_at_s=snapshot.captured_at_s,
-        age_ms=(now_s - snapshot.captured_at_s) * 1000.0,
         width_px=snapshot.size_wh_px[0],
         height_px=snapshot.size_wh_px[1],
         camera_calibrated=setup.camera_calibrated,

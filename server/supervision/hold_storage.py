@@ -5,7 +5,6 @@ without an open case, and stays when another case is opened or the server restar
 before it is written, so a full disk silences nobody. A case's archive has holds in its alarm log only.
 """
 
-import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,9 +12,8 @@ from typing import Any, Protocol
 
 import structlog
 
-from server.security.audit.files import write_private
 from server.store import translate_errors
-from server.store.home import sync_folder
+from server.store.private_file import PrivateJsonFile
 
 FORM = 1
 HOLDS_FILE = "holds.json"
@@ -69,8 +67,7 @@ class HoldRequestFile:
     """
 
     def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._file = folder / HOLDS_FILE
+        self._file = PrivateJsonFile(folder / HOLDS_FILE, form=FORM)
 
     def read(self) -> tuple[HoldRequest, ...]:
         """Return the last written requests. A damaged file yields one of an unknown person: the hold stays.
@@ -78,19 +75,14 @@ class HoldRequestFile:
         Raises:
             StoreError: the file cannot be read at all.
         """
-        with translate_errors(self._folder):
-            if not self._file.exists():
-                return ()
-            content = self._file.read_bytes()
         try:
-            stored = json.loads(content)
-            if stored["form"] != FORM:
-                raise ValueError(f"its format is {stored['form']!r}")  # noqa: TRY301  reported below with all others
-            return tuple(_requested(one) for one in stored["asking"])
+            with translate_errors(self._file.path.parent):
+                stored = self._file.read()
+            return () if stored is None else tuple(_requested(one) for one in stored["asking"])
         except (ValueError, KeyError, TypeError) as error:
             _log.error(
                 "the file of hold requests is damaged; a hold is assumed",
-                file=str(self._file),
+                file=str(self._file.path),
                 why=str(error),
             )
             return (HoldRequest(person_id=UNREADABLE_ID, name=UNKNOWN_NAME, at=""),)
@@ -102,9 +94,8 @@ class HoldRequestFile:
             StoreError: STORE_FULL and others; the stored requests stay.
         """
         lines = [{"id": one.person_id, "name": one.name, "at": one.at} for one in asking]
-        with translate_errors(self._folder):
-            write_private(self._file, json.dumps({"form": FORM, "asking": lines}, indent=1).encode())
-            sync_folder(self._folder)
+        with translate_errors(self._file.path.parent):
+            self._file.write({"asking": lines})
 
 
 def _requested(entry: Mapping[str, Any]) -> HoldRequest:

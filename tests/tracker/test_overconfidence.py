@@ -8,9 +8,8 @@ import pytest
 from tests.tracker.pipeline.stepped import CAMERA, MODEL, image_of, pose_of
 from tests.tracker.scenes import Print, code_image, rendered
 from tracker import InvalidInput, MarkerModel, Seen, Sighting, Tracker, Unseen, UnseenReason
-from tracker.geometry import point_covariance_mm2
 from tracker.navigation import Absent, AbsentReason, Setup, navigate
-from tracker.pose import suppress_overlaps
+from tracker.pose import marker_point_covariance_mm2, suppress_overlaps
 from tracker.registration import Registration
 from tracker.rehearsal import Theatre, TheatreSettings
 
@@ -30,7 +29,7 @@ def test_a_blurred_marker_is_not_placed_with_confidence_where_it_is_not() -> Non
                 continue
             pose, truth = sighting.camera_from_marker, theatre.truth_at(at_s).camera_from_marker
             off_mm = float(np.linalg.norm(pose.move_points(tip) - truth.move_points(tip)))
-            covariance = point_covariance_mm2(pose, sighting.pose_covariance, tip)
+            covariance = marker_point_covariance_mm2(pose, sighting.pose_covariance, tip)
             off_by_sd.append(off_mm / float(np.sqrt(np.trace(covariance))))
     assert len(off_by_sd) > 12
     assert max(off_by_sd) < 4.0

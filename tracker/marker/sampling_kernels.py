@@ -27,10 +27,10 @@ def through(h, a, b):
 
 
 @compiled
-def _row_through(h, first, apart, b, max_u, max_v, us, vs):
+def _row_through(h, first, spacing, b, max_u, max_v, us, vs):
     """Map a row of points (first + k apart, b) by a homography, clipped to the image."""
     for k in range(len(us)):
-        a = first + k * apart
+        a = first + k * spacing
         w = 1.0 / (h[6] * a + h[7] * b + 1.0)
         us[k] = min(max((h[0] * a + h[1] * b + h[2]) * w, 0.0), max_u)
         vs[k] = min(max((h[3] * a + h[4] * b + h[5]) * w, 0.0), max_v)

@@ -77,8 +77,8 @@ def channel_directions(channel: Channel, side: Side | None = None) -> Directions
 @lru_cache(maxsize=16)
 def _directions(entry: bytes, target: bytes, side: Side | None) -> Directions:
     start = np.frombuffer(entry)
-    way = np.frombuffer(target) - start
-    axis = way / np.linalg.norm(way)
+    line = np.frombuffer(target) - start
+    axis = line / np.linalg.norm(line)
     side = side or _side_along(axis)
     up = np.array([0.0, 0.0, 1.0])
     if np.linalg.norm(np.cross(axis, up)) < MIN_AXIS_SINE:

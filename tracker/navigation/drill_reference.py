@@ -5,7 +5,9 @@ one to three seconds in a job, and until it is ready the pedicle's outline is th
 needs the plan and the bone surface in addition to the snapshots.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from tracker.geometry import Array, Camera, Marker, Tool, Vertebra, inverse_jacobian, product_jacobians
 from tracker.navigation.clearance import WallDistanceField
@@ -20,7 +22,7 @@ from tracker.navigation.uncertainty import (
 )
 from tracker.plan import Channel
 from tracker.plan.pedicle import Side
-from tracker.pose import ToolModel
+from tracker.pose import ToolModel, covariance_at_lever
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,12 +93,16 @@ def tool_in_vertebra(
     *,
     tip_jacobian: Array | None = None,
 ) -> UncertainPose[Vertebra, Tool]:
-    """Return the pose of a tool in the vertebra frame, with all uncertainties propagated.
+    """Return the pose of a tool in the vertebra frame, with all uncertainties propagated to its tip.
 
     `tip_jacobian`: (6, 3), derivative of `camera_from_vertebra` with respect to this tool's tip, if the
     landmarks were captured with it: the tip error then displaces both bone and drill, and partly cancels.
     """
-    camera_from_tool = camera_from_marker @ marker_from_tool(tool)
+    lever_mm = float(np.linalg.norm(tool.marker_from_tool.translation_mm))
+    at_tip = replace(
+        camera_from_marker, covariance=covariance_at_lever(camera_from_marker.covariance, lever_mm)
+    )
+    camera_from_tool = at_tip @ marker_from_tool(tool)
     found = camera_from_vertebra.inverse @ camera_from_tool
     if tip_jacobian is None or not tip_jacobian.any():
         return found

@@ -5,7 +5,7 @@ from math import nan
 
 import numpy as np
 
-from tracker.geometry import Anchor, Array, Camera, Marker, Rigid, chained_covariance, point_covariance_mm2
+from tracker.geometry import Anchor, Array, Camera, Marker, Rigid, chained_covariance
 from tracker.navigation.assessment import Assessment, assess
 from tracker.navigation.deviation import Deviation, deviation_from_channel
 from tracker.navigation.drill_reference import DrillReference, tool_in_vertebra
@@ -20,8 +20,16 @@ from tracker.navigation.snapshot import (
     VertebraPose,
 )
 from tracker.navigation.uncertainty import DrillAnalysis, UncertainPose
-from tracker.pose import Seen, Sighting, SmoothedPose, ToolModel, is_twice_in_view
-from tracker.registration import AnchoredTo
+from tracker.pose import (
+    Seen,
+    Sighting,
+    SmoothedPose,
+    ToolModel,
+    covariance_at_lever,
+    is_twice_in_view,
+    marker_point_covariance_mm2,
+)
+from tracker.registration import AnchoredTo, Registration
 
 
 def locate_tool(
@@ -61,10 +69,11 @@ def _unseen(sighting: Sighting | None, reason: AbsentReason) -> Absent:
 def _placed(
     tool: ToolModel, pose: Rigid[Camera, Marker], covariance: Array, *, lag_ms: float = 0.0
 ) -> ToolPose:
-    tip_in_marker = tool.marker_from_tool.translation_mm
     return ToolPose(
         camera_from_tool=pose @ tool.marker_from_tool,
-        tip_covariance_mm2=point_covariance_mm2(pose, covariance, tip_in_marker),
+        tip_covariance_mm2=marker_point_covariance_mm2(
+            pose, covariance, tool.marker_from_tool.translation_mm
+        ),
         lag_ms=lag_ms,
     )
 
@@ -107,7 +116,7 @@ def locate_vertebra(
         camera_from_vertebra=camera_from_anchor @ registration.anchor_from_vertebra,
         covariance=chained_covariance(
             camera_from_anchor,
-            seen.pose_covariance,
+            covariance_at_lever(seen.pose_covariance, _lever_mm(setup, registration)),
             registration.anchor_from_vertebra,
             registration.covariance,
         ),
@@ -116,6 +125,18 @@ def locate_vertebra(
         ),
         tool=registration.tool,
     )
+
+
+def _lever_mm(setup: Setup, registration: Registration) -> float:
+    """Return the lever at which a tilt of the reference marker displaces the planned entry.
+
+    Not of the origin of the vertebra frame, which is that of the CT and often lies far away. 0 without a
+    channel, because nothing is measured then.
+    """
+    if isinstance(setup.channel, Absent):
+        return 0.0
+    entry = registration.anchor_from_vertebra.move_points(setup.channel.entry_in_vertebra_mm)
+    return float(np.linalg.norm(entry))
 
 
 def _while_placed(

@@ -180,31 +180,31 @@ def spline_indices(x, y, illumination, where):
 
 
 @compiled
-def spline_derivatives(x, y, signal, contrast, parameters, illumination, weight, share):
-    """Write the derivatives of a pixel's grey level by the parameters of `spline_indices` into `share`.
+def spline_derivatives(x, y, signal, contrast, parameters, illumination, weight, derivative):
+    """Write the derivatives of a pixel's grey level by the parameters of `spline_indices` into `derivative`.
 
     `signal`: rendered value after the camera response, 0..1. `weight` (9,): workspace.
     """
     kind, nodes = illumination
     if kind == PLANAR:
-        share[0], share[1], share[2] = 1.0, x, y
-        share[3], share[4], share[5] = signal, signal * x, signal * y
+        derivative[0], derivative[1], derivative[2] = 1.0, x, y
+        derivative[3], derivative[4], derivative[5] = signal, signal * x, signal * y
         return
     _spline_weights(x, y, nodes, weight)
     by_field = parameters[ILLUMINATION + nodes * nodes] + signal if kind == MULTIPLICATIVE else 1.0
     for k in range(SPLINE_SUPPORT):
-        share[k] = weight[k] * by_field
+        derivative[k] = weight[k] * by_field
     if kind == MULTIPLICATIVE:
-        share[SPLINE_SUPPORT], share[SPLINE_SUPPORT + 1] = contrast, 1.0
+        derivative[SPLINE_SUPPORT], derivative[SPLINE_SUPPORT + 1] = contrast, 1.0
     elif kind == ADDITIVE:
-        share[SPLINE_SUPPORT], share[SPLINE_SUPPORT + 1], share[SPLINE_SUPPORT + 2] = (
+        derivative[SPLINE_SUPPORT], derivative[SPLINE_SUPPORT + 1], derivative[SPLINE_SUPPORT + 2] = (
             signal,
             signal * x,
             signal * y,
         )
     else:
         for k in range(SPLINE_SUPPORT):
-            share[SPLINE_SUPPORT + k] = weight[k] * signal
+            derivative[SPLINE_SUPPORT + k] = weight[k] * signal
 
 
 @compiled
@@ -287,21 +287,21 @@ def _add_smoothness_prior(a, g, parameters, first, nodes, contrast, scale):
     for r in range(nodes):
         for c in range(nodes):
             i = first + r * nodes + c
-            for way in range(2):
-                step = 1 if way == 0 else nodes
-                left = nodes - 1 - (c if way == 0 else r)
+            for axis in range(2):
+                step = 1 if axis == 0 else nodes
+                left = nodes - 1 - (c if axis == 0 else r)
                 if left > 1:
                     cost += _add_curvature_prior(a, g, parameters, (i, i + step, i + 2 * step), sd, scale)
                 if left > 0:
                     j = i + step
-                    apart = parameters[i] - parameters[j]
+                    difference = parameters[i] - parameters[j]
                     a[i, i] += stiff
                     a[j, j] += stiff
                     a[i, j] -= stiff
                     a[j, i] -= stiff
-                    g[i] -= stiff * apart
-                    g[j] += stiff * apart
-                    cost += stiff * apart * apart
+                    g[i] -= stiff * difference
+                    g[j] += stiff * difference
+                    cost += stiff * difference * difference
     return cost
 
 

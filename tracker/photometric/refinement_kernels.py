@@ -243,7 +243,7 @@ def clustered_covariance(values, seen, parameters, illumination, scale, cutoff, 
     scores, there = np.zeros((blocks * blocks, len(parameters))), np.zeros(blocks * blocks)
     spread = np.zeros((6, 6))
     row, weight = np.empty(ILLUMINATION), np.empty(SPLINE_SUPPORT)
-    where, share = np.empty(MAX_SPLINE_PARAMETERS, np.int64), np.empty(MAX_SPLINE_PARAMETERS)
+    where, derivative = np.empty(MAX_SPLINE_PARAMETERS, np.int64), np.empty(MAX_SPLINE_PARAMETERS)
     unit = 1.0 / (cutoff * scale) ** 2
     weights, stiffness = 0.0, 0.0
     for i in range(n):
@@ -258,13 +258,13 @@ def clustered_covariance(values, seen, parameters, illumination, scale, cutoff, 
         b = min(max(int((y + GRID_EXTENT) * 0.5 / GRID_EXTENT * blocks), 0), blocks - 1)
         there[b * blocks + c] = 1.0
         score = scores[b * blocks + c]
-        shares = spline_indices(x, y, illumination, where)
-        spline_derivatives(x, y, signal, dark_contrast[i, 1], parameters, illumination, weight, share)
+        splines = spline_indices(x, y, illumination, where)
+        spline_derivatives(x, y, signal, dark_contrast[i, 1], parameters, illumination, weight, derivative)
         r *= w
         for k in range(ILLUMINATION):
             score[k] += r * row[k]
-        for k in range(shares):
-            score[where[k]] += r * share[k]
+        for k in range(splines):
+            score[where[k]] += r * derivative[k]
     moved = np.zeros((blocks * blocks, 6))
     for block in range(blocks * blocks):
         for m in range(6):

@@ -69,7 +69,7 @@ def _halved(volume: Volume, axis: int) -> Volume:
     hu = np.empty(shape, dtype=np.int16)
     for n in range(pairs):
         pair = np.take(volume.hu, (2 * n, 2 * n + 1), axis=2 - axis).mean(axis=2 - axis)
-        hu[tuple(n if way == 2 - axis else slice(None) for way in range(3))] = np.rint(pair)
+        hu[tuple(n if dimension == 2 - axis else slice(None) for dimension in range(3))] = np.rint(pair)
     affine = volume.lps_from_ijk.copy()
     affine[:3, 3] += affine[:3, axis] / 2.0
     affine[:3, axis] *= 2.0

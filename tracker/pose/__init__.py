@@ -14,6 +14,7 @@ from tracker.pose.predicted_video import with_prediction_error
 from tracker.pose.prior import Prior
 from tracker.pose.refinement import EdgeFit, fit_pose_to_edges
 from tracker.pose.rolling_shutter import RollingShutter
+from tracker.pose.second_order import covariance_at_lever, marker_point_covariance_mm2
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason, is_twice_in_view
 from tracker.pose.smoothing import PoseSmoother, SmoothedPose, SmoothingSettings
 from tracker.pose.suppression import differ_by_rotation, is_same_square, rank_score, suppress_overlaps
@@ -38,11 +39,13 @@ __all__ = [
     "UnseenReason",
     "Window",
     "corners_px_at",
+    "covariance_at_lever",
     "differ_by_rotation",
     "fit_pose_to_edges",
     "flipped_pose",
     "is_same_square",
     "is_twice_in_view",
+    "marker_point_covariance_mm2",
     "occurrence_near",
     "pose_from_corners",
     "rank_score",

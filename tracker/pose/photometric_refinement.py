@@ -37,7 +37,6 @@ from tracker.pose.pose_ambiguity import (
     mahalanobis_squared,
     mixture_covariance,
 )
-from tracker.pose.second_order import second_order_covariance
 from tracker.pose.sighting import Seen
 
 # Edges determine a pose to a fraction of a pixel, so a photometric fit that converges farther away is wrong.
@@ -51,7 +50,7 @@ MAX_RESIDUAL_NOISES, MAX_RESIDUAL_CONTRAST_RATIO, MIN_ACCEPTED_INLIER_RATIO = 2.
 # a ratio of the contrast. Measured on rendered scenes with ground truth.
 UNMODELLED_FACTOR, UNMODELLED_CONTRAST_RATIO = 0.6, 0.02
 # The delta chi-square assumes independent pixel errors; with model errors about half of it remains.
-COST_SHARE = 0.5
+COST_RATIO = 0.5
 # The noise estimate is accurate to a fifth. Residuals beyond that are not noise.
 MAX_NOISE_RATIO = 1.2
 # Where edges and previous images favour the same solution by this delta chi-square, the flipped one is not
@@ -106,8 +105,8 @@ def refine_photometrically(
     if not fits:
         return seen
     # Correlated residuals, for example from motion blur that deviates from the model, reduce the information.
-    share = COST_SHARE / max(one.variance_inflation for one in fits)
-    costs = [share * one.robust_chi2 + mahalanobis_squared(one.camera_from_marker, expected) for one in fits]
+    ratio = COST_RATIO / max(one.variance_inflation for one in fits)
+    costs = [ratio * one.robust_chi2 + mahalanobis_squared(one.camera_from_marker, expected) for one in fits]
     first, *others = np.argsort(costs, kind="stable")
     # Test the best fit alone: if it just fails, a worse fit must not replace it.
     if not _is_exact(fits[first], pixels.noise_grey):
@@ -115,7 +114,6 @@ def refine_photometrically(
     if not _is_near(camera, model, fits[first], seen.camera_from_marker):
         return _mixture_of_both(seen, fits[first])
     pose, covariance = fits[first].camera_from_marker, _with_unmodelled_error(fits[first], pixels.noise_grey)
-    covariance = covariance + second_order_covariance(covariance)
     for k in others:
         delta_chi2 = float(costs[k] - costs[first])
         covariance = covariance + flip_covariance(
@@ -125,7 +123,7 @@ def refine_photometrically(
     if len(starts) > 1:
         lead = delta_chi2_to_next(costs, [one.camera_from_marker for one in fits], int(first))
     if (other := fits[first].alternative) is not None:
-        delta_chi2 = COST_SHARE * fits[first].alternative_delta_chi2
+        delta_chi2 = COST_RATIO * fits[first].alternative_delta_chi2
         covariance = covariance + mixture_covariance(pose, other, delta_chi2=delta_chi2)
         lead = min(lead, max(delta_chi2, 0.0))
     return replace(

@@ -16,7 +16,6 @@ import numpy as np
 from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
 from tracker.geometry.geometry_kernels import rotation_angle_between
 from tracker.photometric import KnownIllumination
-from tracker.pose.second_order import TOOL_REACH_MM
 
 # At this delta chi-square the ambiguity is resolved: the odds of the worse solution are below 1 in 8,000.
 DECIDED_COST = 18.0
@@ -24,7 +23,6 @@ UNDECIDED_COST = 2.0
 # Solutions that differ by less are the same solution.
 MIN_ROTATION_RAD, ONE_SOLUTION_RAD = 1e-3, float(np.radians(1.0))
 EXPECTED_ROTATION_SD_DEG = 4.0
-SMALL_PROBABILITY = 0.05
 # A hand rotates a drill by less than this between two images; a larger rotation is the flipped solution.
 FAR_ROTATION_DEG, NEAR_ROTATION_DEG = 20.0, 10.0
 
@@ -120,13 +118,10 @@ def is_nearer_in_rotation(
 def _spread(difference: Array, probability: float) -> Array:
     """Return the mixture covariance (6, 6) for another pose at `difference` (6,) with this probability."""
     spread = np.outer(difference, difference)
-    # A rotation moves points on an arc, first-order propagation on its tangent. The deviation shortens the
-    # lever to the tip; its term vanishes for a small probability.
+    # A rotation moves directions on an arc, first-order propagation on its tangent; for points, whoever knows
+    # their lever adds the same (`second_order.py`).
     beside = float(1.0 - np.cos(np.linalg.norm(difference[3:])))
     spread[3:, 3:] += beside**2 * np.eye(3)
-    spread[:3, :3] += (
-        (TOOL_REACH_MM * beside) ** 2 * probability / (probability + SMALL_PROBABILITY) * np.eye(3)
-    )
     return np.asarray(probability * spread)
 
 

@@ -118,8 +118,8 @@ class RollingShutter:
             rest_mm = ratio * float(np.abs(shift).max() * imaged.translation_mm[2])
             covariance[:3, :3] += rest_mm**2 * np.eye(3)
         for one in np.diag(motion.sd):
-            apart = pose_difference(pose, still(motion.rates + one))
-            covariance += np.outer(apart, apart)
+            difference = pose_difference(pose, still(motion.rates + one))
+            covariance += np.outer(difference, difference)
         return replace(seen, camera_from_marker=pose, pose_covariance=covariance)
 
     def _delays_s(self, imaged: Rigid[Camera, Marker], side_mm: float) -> Array:

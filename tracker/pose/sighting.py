@@ -32,7 +32,8 @@ class Seen:
     Attributes:
         camera_from_marker: the pose.
         pose_covariance: (6, 6) [mm, rad]; translation first, then rotation as a small left-multiplied
-            rotation vector in the camera frame.
+            rotation vector in the camera frame. Without the second-order term of a lever, which
+            `marker_point_covariance_mm2` adds.
         corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the printed face, measured on
             the sides next to each corner; projected from the pose where those sides are occluded.
         score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.

@@ -15,7 +15,7 @@ def differ_by_rotation(one: Sighting, other: Sighting) -> bool:
         return False
     turned = (np.abs(np.roll(other.corners_px, quarters, axis=0) - one.corners_px) for quarters in (1, 2, 3))
     near = SAME_PLACE_SIDES * side_px_of(one.corners_px)
-    return any(float(apart.max()) < near for apart in turned)
+    return any(float(distances.max()) < near for distances in turned)
 
 
 def is_same_square(one: Seen, other: Seen) -> bool:

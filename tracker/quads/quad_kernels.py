@@ -209,10 +209,10 @@ def _opposite_sides(length, along, middle, i, j, min_side, max_ratio, d):
     for k in range(2):
         d[k] = (length[i] * along[i, k] - length[j] * along[j, k]) / weight
     x, y = middle[j, 0] - middle[i, 0], middle[j, 1] - middle[i, 1]
-    apart, beyond = d[0] * y - d[1] * x, d[0] * x + d[1] * y
-    if apart < min_side or abs(beyond) > apart or apart > MAX_APART_LENGTHS * longer:
+    separation, beyond = d[0] * y - d[1] * x, d[0] * x + d[1] * y
+    if separation < min_side or abs(beyond) > separation or separation > MAX_APART_LENGTHS * longer:
         return 0.0, 0.0
-    return apart, beyond
+    return separation, beyond
 
 
 @compiled
@@ -240,16 +240,16 @@ def pair_quads(segments, min_side, min_squash, max_ratio, lengths, shifts):
                 # Visit each pair once.
                 if other < i:
                     continue
-                apart, beyond = _opposite_sides(length, along, middle, i, other, min_side, max_ratio, d)
-                if apart == 0.0:
+                separation, beyond = _opposite_sides(length, along, middle, i, other, min_side, max_ratio, d)
+                if separation == 0.0:
                     continue
-                across[0], across[1] = -d[1] * apart, d[0] * apart
+                across[0], across[1] = -d[1] * separation, d[0] * separation
                 for m in range(2 * len(lengths)):
                     # Hypotheses: a rectangle, or a parallelogram whose sides are offset as the visible parts
                     # are.
                     side, slant = lengths[m // 2] * max(length[i], length[other]), (m % 2) * beyond
-                    squares = side * side + apart * apart + slant * slant
-                    if not is_plausible_foreshortening(squares, (side * apart) ** 2, min_squash):
+                    squares = side * side + separation * separation + slant * slant
+                    if not is_plausible_foreshortening(squares, (side * separation) ** 2, min_squash):
                         continue
                     for k in range(len(shifts)):
                         if q == MAX_PAIR_QUADS:

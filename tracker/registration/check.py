@@ -87,14 +87,14 @@ def check_landmark(
             "Give both in mm: the landmark on the CT, the tip in the anchor's frame.",
         )
     for name, place in used_mm.items():
-        apart = float(np.linalg.norm(np.asarray(place, dtype=np.float64) - at))
-        if name == landmark or apart < MIN_APART_MM:
+        distance_mm = float(np.linalg.norm(np.asarray(place, dtype=np.float64) - at))
+        if name == landmark or distance_mm < MIN_APART_MM:
             raise RegistrationError(
                 "LANDMARK_WAS_USED",
-                f"'{landmark}' lies {apart:.1f} mm from '{name}', which was used for the registration; "
+                f"'{landmark}' lies {distance_mm:.1f} mm from '{name}', which was used for the registration; "
                 f"needed {MIN_APART_MM:g} mm",
                 "Check on another landmark: one that was used fits by construction.",
-                {"landmark": landmark, "used": name, "apart_mm": apart, "needed_mm": MIN_APART_MM},
+                {"landmark": landmark, "used": name, "apart_mm": distance_mm, "needed_mm": MIN_APART_MM},
             )
     back = registration.anchor_from_vertebra.inverse
     off = back.move_points(tip) - at

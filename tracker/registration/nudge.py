@@ -163,12 +163,13 @@ class NudgedRegistration:
         after = skew(anchor_from_vertebra.rotate_directions(self.pivot_mm))
         carried = np.eye(6)
         carried[:3, 3:] = after - before
-        way = np.concatenate([shift + after @ turn, turn])
+        displacement = np.concatenate([shift + after @ turn, turn])
         return replace(
             self.made,
             anchor_from_vertebra=anchor_from_vertebra,
             # The second moment of a uniform distribution between both is a third of the square.
-            covariance=carried @ self.made.covariance @ carried.T + np.outer(way, way) / 3.0,
+            covariance=carried @ self.made.covariance @ carried.T
+            + np.outer(displacement, displacement) / 3.0,
         )
 
     def _moved(self) -> Rigid[Vertebra, Vertebra]:

@@ -5,8 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from tracker.geometry import inverse_covariance, point_covariance_mm2
-from tracker.pose import Seen, ToolModel
+from tracker.pose import Seen, ToolModel, marker_point_covariance_mm2
 from tracker.registration.capture import CapturedLandmark, TipSample
 from tracker.registration.points import CommonTip, PointPairs
 
@@ -18,7 +17,7 @@ def tip_in_anchor(tool: ToolModel, seen: Seen, reference: Seen | None, *, at_s: 
     """
     pose, tip = seen.camera_from_marker, tool.marker_from_tool.translation_mm
     in_camera = pose.move_points(tip)
-    covariance = point_covariance_mm2(pose, seen.pose_covariance, tip)
+    covariance = marker_point_covariance_mm2(pose, seen.pose_covariance, tip)
     covariance = covariance + pose.rotation @ tool.tip_covariance_mm2 @ pose.rotation.T
     if reference is None:
         return TipSample(
@@ -29,12 +28,15 @@ def tip_in_anchor(tool: ToolModel, seen: Seen, reference: Seen | None, *, at_s: 
             tip_covariance_mm2=tool.tip_covariance_mm2,
         )
     back = reference.camera_from_marker.inverse
-    of_back = inverse_covariance(reference.camera_from_marker, reference.pose_covariance)
+    in_reference = back.move_points(in_camera)
+    # An error of the reference displaces the tip by as much as it would displace a point fixed to it there.
+    covariance = covariance + marker_point_covariance_mm2(
+        reference.camera_from_marker, reference.pose_covariance, in_reference
+    )
     return TipSample(
         at_s=at_s,
-        tip_in_anchor_mm=back.move_points(in_camera),
-        covariance_mm2=point_covariance_mm2(back, of_back, in_camera)
-        + back.rotation @ covariance @ back.rotation.T,
+        tip_in_anchor_mm=in_reference,
+        covariance_mm2=back.rotation @ covariance @ back.rotation.T,
         anchor_from_marker=back.rotation @ pose.rotation,
         tip_covariance_mm2=tool.tip_covariance_mm2,
     )

@@ -8,7 +8,7 @@ import numpy as np
 from tracker.errors import NavigationError
 from tracker.navigation import DrillReference
 from tracker.navigation.clearance import bone_distance_field
-from tracker.plan import Landmark
+from tracker.plan import Channel, Landmark
 from tracker.pose import ToolModel
 from tracker.registration import AnchoredTo, Registration
 from tracker.registration.anchoring import anchor_to_reference
@@ -135,12 +135,13 @@ def _registered(
             rejected[method, AnchoredTo.REFERENCE] = rejected[method, AnchoredTo.CAMERA]
             continue
         made = found[method, AnchoredTo.CAMERA]
-        attempt(method, AnchoredTo.REFERENCE, partial(_beside_reference, made, observer))
+        attempt(method, AnchoredTo.REFERENCE, partial(_beside_reference, made, observer, channel))
     return found, rejected
 
 
-def _beside_reference(made: Registration, observer: TheatreObserver) -> Registration:
-    return anchor_to_reference(made, reference_beside_needles(observer))
+def _beside_reference(made: Registration, observer: TheatreObserver, channel: Channel) -> Registration:
+    reference = reference_beside_needles(observer)
+    return anchor_to_reference(made, reference, at_in_vertebra_mm=channel.entry_in_vertebra_mm)
 
 
 def _row(

@@ -77,9 +77,9 @@ def tool_errors(
 
 def _crossing(tool: Rigid[Vertebra, Tool], channel: Channel) -> Array:
     """Return the intersection (3,) of the drill axis with the entry plane, relative to the entry point."""
-    axis, way = channel.axis_in_vertebra, tool.rotation[:, 2]
+    axis, direction = channel.axis_in_vertebra, tool.rotation[:, 2]
     tip = tool.translation_mm - channel.entry_in_vertebra_mm
-    return np.asarray(tip - way * (tip @ axis) / (way @ axis))
+    return np.asarray(tip - direction * (tip @ axis) / (direction @ axis))
 
 
 def _error_sample(off: Array, covariance: Array) -> ErrorSample:

@@ -59,10 +59,10 @@ def mark_needle(
 ) -> NeedleObservation:
     """Return a needle as a user marks it in the image: from its visible entry to its head."""
     entry = needle_entries((needle,))[0]
-    way = needle.head_in_vertebra_mm - entry
-    length_mm = float(np.linalg.norm(way))
-    hidden_mm = occluded_by_bone_mm(theatre, entry, way / length_mm)
-    ends = np.stack([entry + hidden_mm / length_mm * way, needle.head_in_vertebra_mm])
+    to_head_mm = needle.head_in_vertebra_mm - entry
+    length_mm = float(np.linalg.norm(to_head_mm))
+    hidden_mm = occluded_by_bone_mm(theatre, entry, to_head_mm / length_mm)
+    ends = np.stack([entry + hidden_mm / length_mm * to_head_mm, needle.head_in_vertebra_mm])
     px = theatre.camera.px_from_camera(theatre.camera_from_vertebra.move_points(ends))
     px = px + random.normal(0.0, settings.click_sd_px, (2, 2))
     return needle_from_clicks(
@@ -73,14 +73,14 @@ def mark_needle(
 def needle_entries(needles: Sequence[Needle]) -> Array:
     """Return the points (n, 3) at which needles exit the bone."""
     tips = np.stack([needle.tip_in_vertebra_mm for needle in needles])
-    ways = np.stack([needle.head_in_vertebra_mm for needle in needles]) - tips
-    return surface_exits(tips, ways / np.linalg.norm(ways, axis=1, keepdims=True))
+    directions = np.stack([needle.head_in_vertebra_mm for needle in needles]) - tips
+    return surface_exits(tips, directions / np.linalg.norm(directions, axis=1, keepdims=True))
 
 
-def occluded_by_bone_mm(theatre: Theatre, entry_mm: Array, way: Array) -> float:
+def occluded_by_bone_mm(theatre: Theatre, entry_mm: Array, direction: Array) -> float:
     """Return the length of needle, from its entry, that bone occludes in the camera's view."""
     along_mm = np.arange(0.0, MAX_OCCLUDED_MM, 0.1)
-    points = entry_mm + along_mm[:, None] * way
+    points = entry_mm + along_mm[:, None] * direction
     sights = theatre.camera_from_vertebra.inverse.translation_mm - points
     sights /= np.linalg.norm(sights, axis=1, keepdims=True)
     # The first steps along the line of sight are left out: the bone at the needle's own entry does not

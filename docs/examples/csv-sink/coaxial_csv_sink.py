@@ -5,7 +5,7 @@ import json
 import os
 from pathlib import Path
 
-COLUMNS = ("sequence", "image_number", "age_ms", "headline")
+COLUMNS = ("sequence", "image_number", "image_age_ms", "headline")
 
 
 class CsvSink:
@@ -24,9 +24,10 @@ class CsvSink:
         """Write a row; `text` is the message of `WS /ws/live`."""
         message = json.loads(text)
         # Without a snapshot there is no image: the row says so, instead of repeating the last one.
-        snapshot = message["snapshot"] or {"image_number": "", "age_ms": ""}
+        snapshot = message["snapshot"] or {"image_number": ""}
         headline = message["headline"]["title"]["en"]
-        self._rows.writerow([message["sequence"], snapshot["image_number"], snapshot["age_ms"], headline])
+        age_ms = message["image_age_ms"]
+        self._rows.writerow([message["sequence"], snapshot["image_number"], age_ms, headline])
         self._file.flush()
 
     def close(self) -> None:

@@ -117,10 +117,10 @@ def _compared(sform: Array, qform: Array, shape_ijk: tuple[int, ...]) -> list[st
             {"sform_mm": sizes[0].tolist(), "qform_mm": sizes[1].tolist()},
         )
     corners = np.array(np.meshgrid(*[[0.0, size - 1.0] for size in shape_ijk], [1.0])).reshape(4, -1)
-    apart = float(np.linalg.norm(((sform - qform) @ corners)[:3], axis=0).max())
-    if apart <= 0.1:
+    difference_mm = float(np.linalg.norm(((sform - qform) @ corners)[:3], axis=0).max())
+    if difference_mm <= 0.1:
         return []
-    return [f"The sform and qform of the NIfTI differ by up to {apart:.1f} mm; the sform is used."]
+    return [f"The sform and qform of the NIfTI differ by up to {difference_mm:.1f} mm; the sform is used."]
 
 
 def _check_size(affine: Array, unit: str) -> None:

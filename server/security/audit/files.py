@@ -1,16 +1,13 @@
 """Files of the audit log: its lines, and beside them the end of the chain."""
 
-import errno
 import json
 import os
-import secrets
 from pathlib import Path
 
 from server.security.audit.chain import Fault, Head, Verdict
 from server.security.audit.verification import LogVerifier, verify_content
-from server.store.home import sync_file
+from server.store.private_file import write_private
 
-OWNER_ONLY = 0o600
 BLOCK_BYTES = 64 * 1024
 
 
@@ -65,37 +62,3 @@ def write_head(file: Path, head: Head) -> None:
         OSError: it cannot be written.
     """
     write_private(file, json.dumps({"count": head.count, "sum": head.sum}).encode())
-
-
-def write_private(file: Path, content: bytes) -> None:
-    """Write a file that only its owner can read, atomically, and on the disk on return.
-
-    Raises:
-        OSError: it cannot be written.
-    """
-    part = file.with_name(f".{file.name}.{secrets.token_hex(4)}")
-    descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWNER_ONLY)
-    try:
-        try:
-            write_all(descriptor, content)
-            sync_file(descriptor)
-        finally:
-            os.close(descriptor)
-        part.replace(file)
-    except OSError:
-        part.unlink(missing_ok=True)
-        raise
-
-
-def write_all(descriptor: int, content: bytes) -> None:
-    """Write every byte: on a nearly full disk one call writes only a part.
-
-    Raises:
-        OSError: not all can be written; a part may be.
-    """
-    left = memoryview(content)
-    while left:
-        written = os.write(descriptor, left)
-        if written <= 0:
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        left = left[written:]

@@ -14,18 +14,12 @@ from server.clock import Clock, utc_now, utc_text
 from server.security.audit.chain import BROKEN, Fault, Head, Verdict, chained_line
 from server.security.audit.changes import note
 from server.security.audit.entries import Entry
-from server.security.audit.files import (
-    OWNER_ONLY,
-    last_lines,
-    read_head,
-    write_all,
-    write_head,
-    write_private,
-)
+from server.security.audit.files import last_lines, read_head, write_head
 from server.security.audit.verification import LogVerifier, end_fault, verify_content
 from server.security.person import SERVER
 from server.store import Change, translate_errors
 from server.store.home import sync_file, sync_folder
+from server.store.private_file import OWNER_ONLY, write_all, write_private
 from tracker.errors import NavigationError
 
 AUDIT_FILE, HEAD_FILE, RESERVE_FILE = "audit.jsonl", "audit-head.json", "audit-reserve"

@@ -5,17 +5,15 @@ ended session, and a copied case contains no token. A change and its audit entry
 transaction.
 """
 
-import json
 from collections.abc import Iterable, Mapping
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from server.security.audit.files import write_private
 from server.security.people.records import Invitation, Session
 from server.security.person import Person, Role
 from server.store import StoreError
-from server.store.home import sync_folder
+from server.store.private_file import PrivateJsonFile
 
 FORM = 1
 
@@ -27,12 +25,10 @@ def read_people(file: Path) -> tuple[list[Invitation], list[Session]]:
         StoreError: PEOPLE_DAMAGED.
         OSError: the file cannot be read.
     """
-    if not file.exists():
-        return [], []
     try:
-        stored = json.loads(file.read_bytes())
-        if stored["form"] != FORM:
-            raise ValueError(f"its format is {stored['form']!r}")  # noqa: TRY301  reported below with all others
+        stored = PrivateJsonFile(file, form=FORM).read()
+        if stored is None:
+            return [], []
         return [_invitation(one) for one in stored["invitations"]], [
             _session(one) for one in stored["sessions"]
         ]
@@ -52,12 +48,10 @@ def write_people(file: Path, invitations: Iterable[Invitation], sessions: Iterab
         OSError: the file cannot be written.
     """
     reported = {
-        "form": FORM,
         "invitations": [_invitation_json(one) for one in invitations],
         "sessions": [_session_json(one) for one in sessions],
     }
-    write_private(file, json.dumps(reported, indent=1).encode())
-    sync_folder(file.parent)
+    PrivateJsonFile(file, form=FORM).write(reported)
 
 
 def _person_json(person: Person) -> dict[str, str]:

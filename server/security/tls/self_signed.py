@@ -14,8 +14,8 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
 from server.security.addresses import outbound_address
-from server.security.audit.files import write_private
 from server.store.home import sync_folder
+from server.store.private_file import write_private
 
 CERTIFICATE_FILE, KEY_FILE = "certificate.pem", "key.pem"
 # Browsers reject certificates with a longer validity, though not yet self-signed ones.

@@ -3,5 +3,5 @@
 sizes.py          picture sizes, and the choices of a viewer
 adaptive_size.py  selection of the size for a connection by send times and skipped images
 picture_cache.py  the picture of an instant in a size, encoded once and only on demand
-message_cache.py  the message of an instant, serialised once; only send-time fields differ between viewers
+message_cache.py  the message of an instant: its content serialised once, its envelope for each viewer
 """

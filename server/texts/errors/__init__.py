@@ -34,11 +34,11 @@ def reason_of_error(error: NavigationError) -> Reason:
 def error_reason(code: str, message: str, remedy: str, context: Mapping[str, object]) -> Reason:
     """Return the parts of an error as a reason in all languages, in English where it has no translation."""
     values = {name: _word(name, value) for name, value in context.items()}
-    said = _translation(message, MESSAGES.get(code, ()), values)
-    advised = _translation(remedy, REMEDIES, values)
-    if said is None or advised is None:
+    translated_message = _translation(message, MESSAGES.get(code, ()), values)
+    translated_remedy = _translation(remedy, REMEDIES, values)
+    if translated_message is None or translated_remedy is None:
         return Reason(code=code, message=as_is(message), remedy=as_is(remedy), is_translated=False)
-    return Reason(code=code, message=said, remedy=advised)
+    return Reason(code=code, message=translated_message, remedy=translated_remedy)
 
 
 def _word(name: str, value: object) -> object:

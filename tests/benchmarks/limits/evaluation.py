@@ -10,7 +10,8 @@ from tests.benchmarks.claims import ELLIPSOID_95, FALSE_PX, FALSE_SIDE_RATIO
 from tests.benchmarks.scenes.bound import PARAMETERS, TIP_IN_MARKER_MM, pose_errors
 from tests.benchmarks.scenes.scene import Pose, Scene
 from tracker import Seen, Sighting
-from tracker.geometry import Array, skew, vector_from_rotation
+from tracker.geometry import Array, vector_from_rotation
+from tracker.pose import marker_point_covariance_mm2
 
 # Below this angle between both planar solutions they are one.
 APART_DEG = 10.0
@@ -123,11 +124,14 @@ def _mahalanobis_squared(truth: Pose, claim: Claim) -> tuple[float, ...]:
     if claim.covariance is None:
         return ()
     claimed, covariance = claim.pose, claim.covariance
-    to_tip = np.hstack([np.eye(3), -skew(claimed.rotate_directions(TIP_IN_MARKER_MM))])
     off = (
         truth.translation_mm - claimed.translation_mm,
         vector_from_rotation(truth.rotation @ claimed.rotation.T),
         truth.move_points(TIP_IN_MARKER_MM) - claimed.move_points(TIP_IN_MARKER_MM),
     )
-    stated = (covariance[:3, :3], covariance[3:, 3:], to_tip @ covariance @ to_tip.T)
+    stated = (
+        covariance[:3, :3],
+        covariance[3:, 3:],
+        marker_point_covariance_mm2(claimed, covariance, TIP_IN_MARKER_MM),
+    )
     return tuple(float(e @ np.linalg.solve(c, e)) for e, c in zip(off, stated, strict=True))

@@ -43,7 +43,12 @@ def test_each_image_has_its_capture_time_and_the_overlay_of_its_results(
     recorded: Path, tmp_path: Path
 ) -> None:
     summary = write_video(recorded, tmp_path / "case.mp4")
-    assert (summary.images, summary.gaps, summary.undrawn, summary.is_whole) == (11, 0, 0, True)
+    assert (summary.images, summary.gaps, summary.images_without_overlay, summary.is_whole) == (
+        11,
+        0,
+        0,
+        True,
+    )
     found = frames(tmp_path / "case.mp4")
     assert [at_s for at_s, _ in found] == pytest.approx([n / RATE_HZ for n in range(11)], abs=2e-5)
     images = [one for one in RecordingReader(recorded).messages() if one.topic is Topic.IMAGE]
@@ -95,7 +100,7 @@ def test_what_is_drawn_from_messages_is_what_was_drawn_live(mode: str) -> None:
     assert bool(picture.alarms) == (mode != "path")
     width, height = snapshot.size_wh_px
     image = np.full((height, width, 3), 90, dtype=np.uint8)
-    message = SnapshotMessage.model_validate_json(snapshot_message(snapshot, now_s=now_s).model_dump_json())
+    message = SnapshotMessage.model_validate_json(snapshot_message(snapshot).model_dump_json())
     shown = AlarmsMessage.model_validate_json(alarms_message(picture, now_s=now_s).model_dump_json())
     assert belongs_to(setup, message)
     for language in ("en", "de"):
@@ -112,7 +117,7 @@ def test_results_of_another_setup_are_not_drawn() -> None:
     setup = drilled_rod_setup()
     sighting = seen_at(np.array(PLACES["path"]), setup.tools["drill"])
     snapshot = concluded(setup, drill_reference(), {"drill": sighting}, number=1, captured_at_s=1.0)
-    message = snapshot_message(snapshot, now_s=1.0)
+    message = snapshot_message(snapshot)
     channel = setup.channel
     assert isinstance(channel, Channel)
     wider = replace(setup, channel=replace(channel, radius_mm=channel.radius_mm + 0.1))
@@ -124,7 +129,7 @@ def test_results_of_another_setup_are_not_drawn() -> None:
 def test_without_its_setup_an_image_states_that_its_results_are_not_drawn(tmp_path: Path) -> None:
     recording = write_drilling(tmp_path / "case.mcap")
     summary = write_video(recording, tmp_path / "case.mp4", language="de")
-    assert (summary.images, summary.undrawn) == (len(DRILLED), len(DRILLED))
+    assert (summary.images, summary.images_without_overlay) == (len(DRILLED), len(DRILLED))
     images = [one.image for one in RecordingReader(recording).messages() if one.topic is Topic.IMAGE]
     image = images[0]
     assert image is not None
@@ -158,7 +163,7 @@ def test_a_cut_recording_gives_its_images_up_to_there(recorded: Path, tmp_path: 
     summary = write_video(cut, tmp_path / "case.mp4")
     assert 0 < summary.images < 11
     assert not summary.is_whole
-    assert summary.why_cut
+    assert summary.incomplete_reason
     assert len(frames(tmp_path / "case.mp4")) == summary.images
 
 

@@ -21,7 +21,7 @@ def read(path: Path) -> tuple[list[RecordedMessage], RecordingReader]:
 def test_messages_come_in_their_order_with_time_number_and_pixels(tmp_path: Path) -> None:
     messages, reader = read(write_recording(tmp_path / "a.mcap"))
     assert reader.is_whole
-    assert reader.why_cut == ""
+    assert reader.incomplete_reason == ""
     assert [message.topic for message in messages] == [Topic.NOTE, Topic.IMAGE] * 20
     images = [message for message in messages if message.topic is Topic.IMAGE]
     assert [image.sequence for image in images] == list(range(20))
@@ -42,7 +42,7 @@ def test_a_file_cut_anywhere_is_readable_up_to_the_cut(tmp_path: Path) -> None:
         cut.write_bytes(content[:length])
         messages, reader = read(cut)
         assert not reader.is_whole
-        assert reader.why_cut
+        assert reader.incomplete_reason
         assert [one.content for one in messages] == [one.content for one in every[: len(messages)]]
         counts.append(len(messages))
     assert counts == sorted(counts)
@@ -59,7 +59,7 @@ def test_a_changed_bit_ends_the_reading_before_its_chunk(tmp_path: Path) -> None
     path.write_bytes(content)
     messages, reader = read(path)
     assert not reader.is_whole
-    assert reader.why_cut == "a checksum is wrong"
+    assert reader.incomplete_reason == "a checksum is wrong"
     assert 0 < len(messages) <= 18
 
 
@@ -84,7 +84,7 @@ def test_a_damaged_length_ends_the_reading(tmp_path: Path, length: int) -> None:
     path.write_bytes(content)
     messages, reader = read(path)
     assert (messages, reader.is_whole) == ([], False)
-    assert reader.why_cut
+    assert reader.incomplete_reason
 
 
 def test_the_duration_of_a_file_with_damaged_statistics_is_not_known(tmp_path: Path) -> None:

@@ -25,7 +25,7 @@ def snapshot_of(snapshot_of: SnapshotOf) -> SnapshotOf:
 
 
 def _along(snapshot: NavigationSnapshot) -> BullseyeMessage | None:
-    return snapshot_message(snapshot, now_s=1.0).tools[0].along
+    return snapshot_message(snapshot).tools[0].along
 
 
 def test_the_view_is_the_one_that_is_burned_in(snapshot_of: SnapshotOf) -> None:

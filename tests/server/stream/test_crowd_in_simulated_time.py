@@ -106,11 +106,11 @@ def numbers_of(page: Page) -> list[int]:
 def test_each_good_viewer_has_every_image_while_others_are_thin_or_stalled(crowd: Crowd) -> None:
     for page in (*crowd.good, crowd.numbers):
         assert numbers_of(page) == list(range(IMAGES))
-        assert max(message["snapshot"]["age_ms"] for _, message in page.came) < 1000.0 / RATE_HZ
+        assert max(message["image_age_ms"] for _, message in page.came) < 1000.0 / RATE_HZ
 
 
 def test_each_text_and_picture_is_made_once_for_all(crowd: Crowd) -> None:
-    assert crowd.view.texts.written == IMAGES
+    assert crowd.view.texts.serialised == IMAGES
     pictures = crowd.view.pictures
     assert isinstance(pictures, MadePictures)
     in_full = sum(size is PictureSize.FULL for _, size in pictures.made)
@@ -137,7 +137,7 @@ def test_the_slow_connection_gets_small_pictures_that_are_young(crowd: Crowd) ->
     assert {message["shown_scale_ratio"] for _, message in settled} == {0.25}
     # Some 8 a second, each the newest when its transmission begins.
     assert len(settled) > (SECONDS - 4.0) * 6
-    assert max(message["snapshot"]["age_ms"] for _, message in settled) < 1000.0 / RATE_HZ
+    assert max(message["image_age_ms"] for _, message in settled) < 1000.0 / RATE_HZ
 
 
 def test_a_viewer_on_a_slow_connection_who_insists_gets_full_pictures_rarely(

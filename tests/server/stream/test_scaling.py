@@ -160,9 +160,9 @@ def test_a_text_is_written_once_and_is_true_at_each_sending(live_instant: LiveIn
     for later_s, size in ((0.0, PictureSize.FULL), (0.7, PictureSize.QUARTER)):
         now_s = made_s + later_s
         said = json.loads(texts.of(instant, size=size, now_s=now_s))
-        whole = live_message(instant, now_s=now_s, shown_scale_ratio=size.scale_ratio)
-        assert said == json.loads(whole.model_dump_json())
-    assert texts.written == 1
+        whole = json.loads(live_message(instant, now_s=now_s).model_dump_json())
+        assert said == whole | {"shown_scale_ratio": size.scale_ratio}
+    assert texts.serialised == 1
 
 
 def test_a_text_without_image_is_whole_too(instant_of: LiveInstant) -> None:

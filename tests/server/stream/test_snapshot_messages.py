@@ -38,7 +38,7 @@ def snapshot_of(snapshot_of: SnapshotOf) -> SnapshotOf:
 
 
 def _sent(snapshot: NavigationSnapshot) -> SnapshotMessage:
-    return snapshot_message(snapshot, now_s=1.0)
+    return snapshot_message(snapshot)
 
 
 def _judgement(snapshot: NavigationSnapshot) -> JudgementMessage:

@@ -8,7 +8,7 @@ import pytest
 from tests.tracker.scenes import camera_of, corners_px_of, facing
 from tracker import PlanError, Seen, Sighting, ToolModel, Unseen, UnseenReason
 from tracker.errors import InvalidInput
-from tracker.geometry import Rigid, Tool, Vertebra, point_covariance_mm2, rotation_from_vector
+from tracker.geometry import Rigid, Tool, Vertebra, rotation_from_vector
 from tracker.navigation import (
     Absent,
     AbsentReason,
@@ -20,6 +20,7 @@ from tracker.navigation import (
     navigate,
 )
 from tracker.plan import Channel
+from tracker.pose import marker_point_covariance_mm2
 from tracker.registration import Registration
 
 # From the origin 40 mm along +y.
@@ -273,7 +274,7 @@ def test_one_snapshot_is_made_of_one_pose() -> None:
     )
     np.testing.assert_allclose(
         tool.tip_covariance_mm2,
-        point_covariance_mm2(CAMERA_FROM_MARKER, SEEN.pose_covariance, [0, -120, -10]),
+        marker_point_covariance_mm2(CAMERA_FROM_MARKER, SEEN.pose_covariance, [0, -120, -10]),
     )
     assert isinstance(snapshot.vertebra, VertebraPose)
     assert deviation == deviation_from_channel(

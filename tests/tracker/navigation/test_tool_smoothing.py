@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from tests.server.conftest import make_snapshot
-from tracker.geometry import point_covariance_mm2
 from tracker.navigation import (
     Absent,
     Deviation,
@@ -16,7 +15,7 @@ from tracker.navigation import (
 )
 from tracker.navigation.tool_smoothing import channel_wall_distance_mm
 from tracker.plan import Channel
-from tracker.pose import SmoothingSettings
+from tracker.pose import SmoothingSettings, marker_point_covariance_mm2
 
 CHANNEL = Channel(
     name="L3 left",
@@ -123,7 +122,7 @@ def test_the_tip_is_no_surer_than_in_its_images() -> None:
     snapshot = navigated(SmoothingSettings(lag_ms=50.0), [FAR] * 4)[-1]
     tool, sighting = snapshot.tools["drill"], make_snapshot(tip_in_vertebra_mm=FAR).sightings["drill"]
     assert isinstance(tool, ToolPose)
-    own = point_covariance_mm2(sighting.camera_from_marker, sighting.pose_covariance, [0, -70, 0])  # type: ignore[union-attr]  # it is seen
+    own = marker_point_covariance_mm2(sighting.camera_from_marker, sighting.pose_covariance, [0, -70, 0])  # type: ignore[union-attr]  # it is seen
     assert np.trace(tool.tip_covariance_mm2) >= np.trace(own) * (1 - 1e-9)
 
 

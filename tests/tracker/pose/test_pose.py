@@ -29,11 +29,17 @@ from tracker.geometry import (
     Marker,
     Rigid,
     angle_between_deg,
-    point_covariance_mm2,
     rotation_from_vector,
     vector_from_rotation,
 )
-from tracker.pose import Prior, fit_pose_to_edges, flipped_pose, pose_from_corners, side_px_of
+from tracker.pose import (
+    Prior,
+    fit_pose_to_edges,
+    flipped_pose,
+    marker_point_covariance_mm2,
+    pose_from_corners,
+    side_px_of,
+)
 from tracker.pose.pose_ambiguity import DECIDED_COST
 from tracker.rehearsal import Theatre, TheatreSettings
 
@@ -202,7 +208,7 @@ def test_a_covariance_is_symmetric_positive_and_grows_with_noise(seed: int) -> N
 
 def _squared_distance(sighting: Seen, pose: Rigid[Camera, Marker]) -> float:
     """Error of the tip in the metric of its stated covariance."""
-    covariance = point_covariance_mm2(sighting.camera_from_marker, sighting.pose_covariance, TIP_MM)
+    covariance = marker_point_covariance_mm2(sighting.camera_from_marker, sighting.pose_covariance, TIP_MM)
     off = sighting.camera_from_marker.move_points(TIP_MM) - pose.move_points(TIP_MM)
     return float(off @ np.linalg.solve(covariance, off))
 

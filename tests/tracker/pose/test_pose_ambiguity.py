@@ -16,6 +16,7 @@ from tracker.pose.pose_ambiguity import (
     mahalanobis_squared,
 )
 from tracker.pose.prior import MAX_DELTA_CHI2
+from tracker.pose.second_order import marker_point_covariance_mm2
 
 TRUTH = pose_of(side_px=26.0, tilt_deg=11.0)
 
@@ -120,12 +121,10 @@ def test_what_is_stated_reaches_the_tip_of_the_other_solution(tip_mm: tuple[floa
     """A tip moves along an arc from one solution to the other; its covariance is linear."""
     other = flipped_pose(TRUTH)
     spread = flip_covariance(TRUTH, other, delta_chi2=0.0, expected=None) + np.eye(6) * 1e-6
-    arm = TRUTH.rotation @ np.array(tip_mm)
-    cross = np.array([[0.0, -arm[2], arm[1]], [arm[2], 0.0, -arm[0]], [-arm[1], arm[0], 0.0]])
-    by_pose = np.hstack([np.eye(3), -cross])
+    stated = marker_point_covariance_mm2(TRUTH, spread, tip_mm)
     apart = other.move_points(np.array([tip_mm]))[0] - TRUTH.move_points(np.array([tip_mm]))[0]
     # Its 95 % ellipsoid.
-    assert float(apart @ np.linalg.solve(by_pose @ spread @ by_pose.T, apart)) < 7.815
+    assert float(apart @ np.linalg.solve(stated, apart)) < 7.815
 
 
 @pytest.mark.parametrize("angle_deg", [0.0, 1e-4, 30.0, 179.0, 180.0])

@@ -1,37 +1,33 @@
-"""Effect of rotational uncertainty on the end of a tool, against rotations drawn from its covariance."""
+"""Second-order term of a rotation error on a point at a lever."""
 
 import numpy as np
 import pytest
 
-from tracker.geometry import Array, Camera, Rigid, Tool, point_covariance_mm2, rotation_from_vector
-from tracker.pose.second_order import TOOL_REACH_MM, second_order_covariance
-
-# Inside so many squared standard deviations are 95 % of three normally distributed numbers.
-INSIDE_SD2 = 7.815
-# The end of a tool in the marker's plane: what a tilt does to it across the line of sight is of second order.
-END_MM = np.array([0.0, TOOL_REACH_MM, 0.0])
-FACING: Rigid[Camera, Tool] = Rigid(
-    rotation=np.diag([1.0, -1.0, -1.0]), translation_mm=np.array([0.0, 0.0, 500.0])
+from tracker.geometry import Camera, Marker, Rigid, point_covariance_mm2
+from tracker.pose.second_order import (
+    covariance_at_lever,
+    marker_point_covariance_mm2,
+    second_order_variance_mm2,
 )
 
-
-def _inside(covariance: Array, stated: Array) -> float:
-    """Share of ends inside the stated (6, 6), for pose errors with a covariance (6, 6)."""
-    around = np.random.default_rng(3).multivariate_normal(np.zeros(6), covariance, 2000)
-    shape = point_covariance_mm2(FACING, stated, END_MM)
-    arm = FACING.rotation @ END_MM
-    off = np.array([one[:3] + rotation_from_vector(one[3:]) @ arm - arm for one in around])
-    return float(np.mean(np.einsum("ni,ij,nj->n", off, np.linalg.inv(shape), off) < INSIDE_SD2))
+TILT_2_DEG = np.diag([0.0, 0.0, 0.0, np.radians(2.0) ** 2, np.radians(2.0) ** 2, 0.0])
 
 
-@pytest.mark.parametrize("tilt_deg", [0.5, 1.0, 3.0])
-def test_ends_lie_inside_what_is_stated_though_they_go_along_an_arc(tilt_deg: float) -> None:
-    tilt, roll = np.radians(tilt_deg) ** 2, np.radians(0.01) ** 2
-    covariance = np.diag([1e-4, 1e-4, 1e-2, tilt, tilt, roll])
-    assert _inside(covariance, covariance) < 0.9
-    assert _inside(covariance, covariance + second_order_covariance(covariance)) > 0.92
+@pytest.mark.parametrize(
+    ("lever_mm", "sd_mm"), [(0.0, 0.0), (60.0, 0.1034), (120.0, 0.2068), (250.0, 0.4308)]
+)
+def test_the_term_is_what_a_hand_computes(lever_mm: float, sd_mm: float) -> None:
+    # Two angles of 2 deg: E[(a^2 + b^2)^2] = 8 sd^4, so the sd is half the lever times sqrt(8) sd^2.
+    assert np.sqrt(second_order_variance_mm2(TILT_2_DEG, lever_mm)) == pytest.approx(sd_mm, abs=1e-4)
+    np.testing.assert_array_equal(
+        second_order_variance_mm2(np.array([TILT_2_DEG, 0.0 * TILT_2_DEG]), lever_mm)[1], 0.0
+    )
 
 
-def test_a_sure_turn_adds_nothing_that_matters() -> None:
-    sure = np.diag([1e-4, 1e-4, 1e-2, *[np.radians(0.02) ** 2] * 3])
-    assert float(second_order_covariance(sure).max()) < 1e-8
+def test_only_the_point_s_own_variance_grows() -> None:
+    raised = covariance_at_lever(TILT_2_DEG, 120.0) - TILT_2_DEG
+    np.testing.assert_allclose(raised, np.diag([0.2068**2] * 3 + [0.0] * 3), atol=1e-4)
+    pose: Rigid[Camera, Marker] = Rigid.from_vector([0.3, 2.6, -0.4], [20.0, -30.0, 450.0])
+    at = [0.0, -72.0, 96.0]
+    grown = marker_point_covariance_mm2(pose, TILT_2_DEG, at) - point_covariance_mm2(pose, TILT_2_DEG, at)
+    np.testing.assert_allclose(grown, 0.2068**2 * np.eye(3), atol=1e-4)

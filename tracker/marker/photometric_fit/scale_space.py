@@ -85,8 +85,8 @@ def _scale_space(same: _IdentityKey) -> ScaleSpace:
     )
 
 
-def _gaussians(apart: Array, blur: float) -> tuple[Array, Array, Array]:
+def _gaussians(offset: Array, blur: float) -> tuple[Array, Array, Array]:
     """Return Gaussian, first and second derivative at these distances (n, m) in cells, per texel."""
-    flat = np.exp(-0.5 * (apart / blur) ** 2) / (blur * np.sqrt(2.0 * np.pi) * TEXELS)
-    slope = -apart / blur**2 * flat
-    return flat, slope, (apart**2 / blur**2 - 1.0) / blur**2 * flat
+    flat = np.exp(-0.5 * (offset / blur) ** 2) / (blur * np.sqrt(2.0 * np.pi) * TEXELS)
+    slope = -offset / blur**2 * flat
+    return flat, slope, (offset**2 / blur**2 - 1.0) / blur**2 * flat

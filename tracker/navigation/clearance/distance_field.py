@@ -168,8 +168,8 @@ def _squared_steps(bone: Flags, walls: Array, backs: Array) -> npt.NDArray[np.fl
         return np.full(bone.shape, np.float32(1e4), np.float32)
     seeds = scipy.ndimage.distance_transform_edt(squared > 1.0, return_distances=False, return_indices=True)
     propagate_nearest(everything, seeds, nearest, squared)
-    for way in (1, -1):
-        sweep_neighbours(everything, nearest, squared, way)
+    for direction in (1, -1):
+        sweep_neighbours(everything, nearest, squared, direction)
     return squared
 
 
@@ -179,8 +179,8 @@ def _mouths(bone: Flags, squared: npt.NDArray[np.float32]) -> Array:
     for axis in range(3):
         low = tuple(slice(None, -1) if n == axis else slice(None) for n in range(3))
         high = tuple(slice(1, None) if n == axis else slice(None) for n in range(3))
-        apart = (bone[low] != bone[high]) & (squared[low] > 1.0) & (squared[high] > 1.0)
-        points = np.argwhere(apart).astype(np.float64)
+        is_crossed = (bone[low] != bone[high]) & (squared[low] > 1.0) & (squared[high] > 1.0)
+        points = np.argwhere(is_crossed).astype(np.float64)
         points[:, axis] += 0.5
         found.append(points)
     return np.concatenate(found)

@@ -134,22 +134,22 @@ def propagate_nearest(triangles, seeds, nearest, squared):
 
 
 @compiled
-def sweep_neighbours(triangles, nearest, squared, way):
-    """Test for each node the triangles of its three predecessors (`way` 1) or successors (`way` -1).
+def sweep_neighbours(triangles, nearest, squared, direction):
+    """Test for each node the triangles of its predecessors (`direction` 1) or successors (-1) on each axis.
 
     Corrects nodes equidistant to several band nodes.
     """
     size0, size1, size2 = squared.shape
     for a in range(size0):
-        i = a if way > 0 else size0 - 1 - a
+        i = a if direction > 0 else size0 - 1 - a
         for b in range(size1):
-            j = b if way > 0 else size1 - 1 - b
+            j = b if direction > 0 else size1 - 1 - b
             for c in range(size2):
-                k = c if way > 0 else size2 - 1 - c
+                k = c if direction > 0 else size2 - 1 - c
                 for axis in range(3):
-                    u = i - way if axis == 0 else i
-                    v = j - way if axis == 1 else j
-                    w = k - way if axis == 2 else k
+                    u = i - direction if axis == 0 else i
+                    v = j - direction if axis == 1 else j
+                    w = k - direction if axis == 2 else k
                     if not (0 <= u < size0 and 0 <= v < size1 and 0 <= w < size2):
                         continue
                     m = nearest[u, v, w]
@@ -162,14 +162,24 @@ def sweep_neighbours(triangles, nearest, squared, way):
 
 
 @compiled
-def _look_up(values, unit, step, x, y, z, gradient):
-    """Trilinear interpolation at a point in grid steps; also sets its gradient in 1/mm (3,)."""
+def cell_of(values, x, y, z):
+    """Return the lower node (i, j, k) of the cell of a point in grid steps, and its place in it, 0 to 1.
+
+    A point outside of the grid is moved to its boundary.
+    """
     i = min(max(int(np.floor(x)), 0), values.shape[0] - 2)
     j = min(max(int(np.floor(y)), 0), values.shape[1] - 2)
     k = min(max(int(np.floor(z)), 0), values.shape[2] - 2)
     a = min(max(x - i, 0.0), 1.0)
     b = min(max(y - j, 0.0), 1.0)
     c = min(max(z - k, 0.0), 1.0)
+    return i, j, k, a, b, c
+
+
+@compiled
+def _look_up(values, unit, step, x, y, z, gradient):
+    """Trilinear interpolation at a point in grid steps; also sets its gradient in 1/mm (3,)."""
+    i, j, k, a, b, c = cell_of(values, x, y, z)
     v000, v001 = float(values[i, j, k]), float(values[i, j, k + 1])
     v010, v011 = float(values[i, j + 1, k]), float(values[i, j + 1, k + 1])
     v100, v101 = float(values[i + 1, j, k]), float(values[i + 1, j, k + 1])

@@ -78,7 +78,7 @@ def _belong(corners: Array, entry_mm: Array, across: Directions, maps: tuple[Arr
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
     middle = corners.mean(axis=1) - entry_mm
-    row, column = (_places(middle @ way) for way in (across.medial, across.cranial))
+    row, column = (_places(middle @ direction) for direction in (across.medial, across.cranial))
     size = len(maps[0])
     in_grid = (row >= 0) & (column >= 0) & (row < size) & (column < size)
     row, column = np.clip(row, 0, size - 1), np.clip(column, 0, size - 1)

@@ -6,6 +6,7 @@ import numpy as np
 
 from tracker.compiled import compiled
 from tracker.geometry.geometry_kernels import copy_vector
+from tracker.navigation.clearance.distance_kernels import cell_of
 
 SQRT_HALF = 0.7071067811865476
 
@@ -97,12 +98,7 @@ def min_clearance_along_lines(
 @compiled
 def _value(values, x, y, z):
     """Trilinear interpolation at a point in grid steps."""
-    i = min(max(int(np.floor(x)), 0), values.shape[0] - 2)
-    j = min(max(int(np.floor(y)), 0), values.shape[1] - 2)
-    k = min(max(int(np.floor(z)), 0), values.shape[2] - 2)
-    a = min(max(x - i, 0.0), 1.0)
-    b = min(max(y - j, 0.0), 1.0)
-    c = min(max(z - k, 0.0), 1.0)
+    i, j, k, a, b, c = cell_of(values, x, y, z)
     v00 = (1.0 - c) * values[i, j, k] + c * values[i, j, k + 1]
     v01 = (1.0 - c) * values[i, j + 1, k] + c * values[i, j + 1, k + 1]
     v10 = (1.0 - c) * values[i + 1, j, k] + c * values[i + 1, j, k + 1]

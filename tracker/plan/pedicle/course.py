@@ -46,7 +46,7 @@ class Course:
     def axis(self, side: str) -> Array:
         """Return the unit axis (3,) of these angles, pointing forwards."""
         outwards = 1.0 if side == "left" else -1.0
-        ways = _ways(np.array([self.transverse_deg]), np.array([self.sagittal_deg]), outwards)
+        ways = _directions(np.array([self.transverse_deg]), np.array([self.sagittal_deg]), outwards)
         return np.asarray(ways[0])
 
     def off_deg(self, axis: Array, side: str) -> Array:
@@ -95,18 +95,18 @@ def middle_of_bone(solid: Solid, point_mm: Array, axis: Array) -> Array:
     return np.asarray(near_by[np.argmax(solid.depth_at(near_by) - 0.3 * np.hypot(x, y))])
 
 
-def _ways(transverse: Array, sagittal: Array, outwards: float) -> Array:
+def _directions(transverse: Array, sagittal: Array, outwards: float) -> Array:
     """Return unit directions (n, 3) of angles (n,) in degrees."""
     medial = np.tan(np.radians(transverse))
-    way = np.stack([-outwards * medial, -np.ones_like(medial), np.tan(np.radians(sagittal))], axis=1)
-    return np.asarray(way / np.linalg.norm(way, axis=1, keepdims=True))
+    directions = np.stack([-outwards * medial, -np.ones_like(medial), np.tan(np.radians(sagittal))], axis=1)
+    return np.asarray(directions / np.linalg.norm(directions, axis=1, keepdims=True))
 
 
 def _clearance_mm(solid: Solid, at: Array, transverse: Array, sagittal: Array, outwards: float) -> Array:
     """Return the mean clearance (n,) of paths through a point, clipped at the relevant maximum."""
-    way = _ways(transverse, sagittal, outwards)
+    directions = _directions(transverse, sagittal, outwards)
     along = np.arange(-MAX_BEHIND_ENTRY_MM, AHEAD_MM + 0.1, STEP_MM)
-    depth = solid.depth_at(at + along[:, None, None] * way)
+    depth = solid.depth_at(at + along[:, None, None] * directions)
     return np.asarray(np.clip(depth, MIN_DEPTH_MM, MAX_DEPTH_MM).mean(axis=0))
 
 

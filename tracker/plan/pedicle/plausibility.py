@@ -85,7 +85,7 @@ def with_widened_uncertainty(one: Isthmus, other: Isthmus) -> Isthmus:
 
     If they disagree on which extent is the width, the section is oblique, and the smaller extent is used.
     """
-    apart = one.centre_mm - other.centre_mm
+    offset = one.centre_mm - other.centre_mm
     turned = np.degrees(one.axis - other.axis)
     share = 1.0 / np.sqrt(2.0)
     (left,), (up,) = planes_across(one.axis[None])
@@ -93,7 +93,7 @@ def with_widened_uncertainty(one: Isthmus, other: Isthmus) -> Isthmus:
         one,
         width_sd_mm=float(np.hypot(one.width_sd_mm, share * (one.width_mm - other.width_mm))),
         height_sd_mm=float(np.hypot(one.height_sd_mm, share * (one.height_mm - other.height_mm))),
-        centre_sd_mm=float(np.hypot(one.centre_sd_mm, share * np.linalg.norm(apart))),
+        centre_sd_mm=float(np.hypot(one.centre_sd_mm, share * np.linalg.norm(offset))),
         slope_sd_deg=(
             float(np.hypot(one.slope_sd_deg[0], share * (turned @ left))),
             float(np.hypot(one.slope_sd_deg[1], share * (turned @ up))),

@@ -164,18 +164,19 @@ def reject_without_canal(isthmus: Isthmus, beyond_mm: float, allowed_mm: float) 
 
 def disagreeing(one: Isthmus, other: Isthmus | None) -> PlanError:
     """Return the error for two starts whose sections differ by more than their sds allow."""
-    apart = 0.0 if other is None else float(np.linalg.norm(one.centre_mm - other.centre_mm))
+    distance_mm = 0.0 if other is None else float(np.linalg.norm(one.centre_mm - other.centre_mm))
     second = (
         "from 2 mm aside none is found"
         if other is None
-        else f"from a few mm aside it is {other.width_mm:.1f} x {other.height_mm:.1f} mm, {apart:.1f} mm away"
+        else f"from a few mm aside it is {other.width_mm:.1f} x {other.height_mm:.1f} mm, "
+        f"{distance_mm:.1f} mm away"
     )
     return PlanError(
         "PEDICLE_DOUBTFUL",
         f"the narrowest section from the click is {one.width_mm:.1f} x {one.height_mm:.1f} mm, and {second}; "
         "they should be one",
         "Click into the pedicle's middle; use finer slices if there are any; or give its numbers by hand.",
-        {"width_mm": one.width_mm, "height_mm": one.height_mm, "apart_mm": apart},
+        {"width_mm": one.width_mm, "height_mm": one.height_mm, "apart_mm": distance_mm},
     )
 
 

@@ -14,6 +14,7 @@ import scipy
 
 from tracker.errors import CalibrationError
 from tracker.geometry import Array
+from tracker.pose.second_order import second_order_variance_mm2
 from tracker.pose.tool.equations import (
     Equations,
     Mask,
@@ -245,7 +246,9 @@ def _whitening(poses: Poses, tip_in_marker_mm: Array) -> Array:
     zero = np.zeros(len(poses))
     cross = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
     moved = np.concatenate([np.broadcast_to(np.eye(3), cross.shape), -cross], axis=2)
-    noise = moved @ poses.covariances @ moved.transpose(0, 2, 1) + MIN_SD_MM**2 * np.eye(3)
+    arc = second_order_variance_mm2(poses.covariances, float(np.linalg.norm(tip_in_marker_mm)))
+    noise = moved @ poses.covariances @ moved.transpose(0, 2, 1)
+    noise = noise + (arc[:, None, None] + MIN_SD_MM**2) * np.eye(3)
     return np.asarray(np.linalg.inv(np.linalg.cholesky(noise)))
 
 

@@ -79,8 +79,8 @@ def pose_observability(solution: Solution) -> PoseObservability:
     known, measured = np.linalg.inv(covariance), elsewhere.T @ elsewhere
     shift, turn = covariance[:3, :3], covariance[3:, 3:]
 
-    def direction(name: str, way: Array, *, is_turn: bool) -> DirectionUncertainty:
-        along = np.concatenate([np.zeros(3), way] if is_turn else [way, np.zeros(3)])
+    def direction(name: str, vector: Array, *, is_turn: bool) -> DirectionUncertainty:
+        along = np.concatenate([np.zeros(3), vector] if is_turn else [vector, np.zeros(3)])
         sd = float(np.sqrt(along @ covariance @ along))
         return DirectionUncertainty(
             name=name,
@@ -97,10 +97,10 @@ def pose_observability(solution: Solution) -> PoseObservability:
     )
 
 
-def _widest(covariance: Array, ways: Array) -> Array:
-    """Return the direction of largest variance of a covariance (3, 3) within the span of `ways` (2, 3)."""
-    _, axes = np.linalg.eigh(ways @ covariance @ ways.T)
-    return np.asarray(axes[:, -1] @ ways)
+def _widest(covariance: Array, vectors: Array) -> Array:
+    """Return the direction of largest variance of a covariance (3, 3) within the span of `vectors` (2, 3)."""
+    _, axes = np.linalg.eigh(vectors @ covariance @ vectors.T)
+    return np.asarray(axes[:, -1] @ vectors)
 
 
 def _text(one: DirectionUncertainty) -> str:

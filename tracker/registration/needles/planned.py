@@ -144,17 +144,18 @@ def reject_poor_geometry(places: Sequence[PlannedNeedle]) -> None:
             {"needles": len(places), "needed": MIN_NEEDLES},
         )
     points = np.stack([one.point_lps_mm for one in places])
-    apart, one, other = min(
+    distance_mm, one, other = min(
         (float(np.linalg.norm(points[i] - points[j])), names[i], names[j])
         for i in range(len(places))
         for j in range(i)
     )
-    if apart < MIN_APART_MM:
+    if distance_mm < MIN_APART_MM:
         raise RegistrationError(
             "NEEDLES_TOO_CLOSE",
-            f"needles '{other[:40]}' and '{one[:40]}' are {apart:.1f} mm apart, needed {MIN_APART_MM:g} mm",
+            f"needles '{other[:40]}' and '{one[:40]}' are {distance_mm:.1f} mm apart, "
+            f"needed {MIN_APART_MM:g} mm",
             "Put the needles farther apart.",
-            {"apart_mm": apart, "one": other[:40], "other": one[:40], "needed_mm": MIN_APART_MM},
+            {"apart_mm": distance_mm, "one": other[:40], "other": one[:40], "needed_mm": MIN_APART_MM},
         )
     across_mm = height_mm(places)
     if across_mm < MIN_APART_MM and not _are_lines(places):

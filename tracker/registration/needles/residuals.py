@@ -128,7 +128,7 @@ class NeedleResiduals:
         entries = self.task.project(pose.move_points(self._points)) - self.task.entries
         heads = self.task.project(pose.move_points(self._far)) - self.task.heads
         rows = ((shown, self._along), (entries, self._across), (heads, self._across))
-        return np.stack([np.einsum("ij,ij->i", off, way) for off, way in rows], axis=1)
+        return np.stack([np.einsum("ij,ij->i", off, direction) for off, direction in rows], axis=1)
 
     def touched_mm(self, pose: Rigid[Camera, Vertebra]) -> Array:
         """Return (m, 3) mm, camera frame: predicted minus captured position of the touched points."""
@@ -166,8 +166,10 @@ class NeedleResiduals:
         entries, heads = pose.move_points(self._points), pose.move_points(self._far)
         at_bone = task.slope(entries) @ _follow(entries - middle)
         at_head = task.slope(heads) @ _follow(heads - middle)
-        ways = ((at_bone, self._along), (at_bone, self._across), (at_head, self._across))
-        needles = np.stack([np.einsum("nij,ni->nj", slope, way) for slope, way in ways], axis=1)
+        directions = ((at_bone, self._along), (at_bone, self._across), (at_head, self._across))
+        needles = np.stack(
+            [np.einsum("nij,ni->nj", slope, direction) for slope, direction in directions], axis=1
+        )
         tips = [pose.move_points(one.point_lps_mm) - middle for one in task.view.touched]
         touched = _follow(np.array(tips).reshape(-1, 3))
         rows = np.concatenate([needles.reshape(-1, 6), touched.reshape(-1, 6)])

@@ -102,11 +102,11 @@ def evaluate(nearest: ClosestPointQuery, sweep: Sweep, fit: Rigid[Vertebra, Anch
     at = nearest.at(moved)
     off = ((moved - at.points_mm) * at.normals).sum(axis=1)
     # Near an edge of the mesh the direction to the surface is not the triangle's normal.
-    way = moved - at.points_mm
-    length = np.linalg.norm(way, axis=1)
+    offset = moved - at.points_mm
+    length = np.linalg.norm(offset, axis=1)
     aslant = (length > 1e-6) & (np.abs(off) < 0.999 * length)
     sign = np.where(off >= 0.0, 1.0, -1.0)
-    normals = np.where(aslant[:, None], way * (sign / np.maximum(length, 1e-12))[:, None], at.normals)
+    normals = np.where(aslant[:, None], offset * (sign / np.maximum(length, 1e-12))[:, None], at.normals)
     off = np.where(aslant, sign * length, off) - sweep.tip_radius_mm
     order = np.argsort(np.abs(off))
     middle = np.searchsorted(np.cumsum(sweep.point_weights[order]), 0.5 * sweep.point_weights.sum())

@@ -14,7 +14,6 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
   return {
     image_number: 7,
     captured_at_s: 100,
-    age_ms: 20,
     width_px: 1280,
     height_px: 720,
     camera_calibrated: true,
@@ -147,6 +146,7 @@ export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
   return {
     sequence: 7,
     sent_at_s: 100.02,
+    image_age_ms: 20,
     shown_scale_ratio: 1,
     source: {
       name: "rehearsal",

@@ -54,6 +54,8 @@ function isLiveMessage(value: unknown): value is LiveMessage {
   return (
     Number.isFinite(fields["sequence"]) &&
     Number.isFinite(fields["sent_at_s"]) &&
+    // An age that is not a number would never exceed its limit.
+    (fields["snapshot"] === null || Number.isFinite(fields["image_age_ms"])) &&
     isRecord(fields["source"]) &&
     isRecord(fields["process"]) &&
     (fields["snapshot"] === null || isSnapshot(fields["snapshot"]))
@@ -61,10 +63,8 @@ function isLiveMessage(value: unknown): value is LiveMessage {
 }
 
 function isSnapshot(value: unknown): boolean {
-  // An age that is not a number would never exceed its limit.
   return (
     isRecord(value) &&
-    Number.isFinite(value["age_ms"]) &&
     Number.isFinite(value["image_number"]) &&
     Number.isFinite(value["captured_at_s"]) &&
     Array.isArray(value["tools"]) &&

@@ -8,7 +8,8 @@ const jpeg = new Uint8Array([1]);
 const frame = (imageNumber: number, ageMs = 20) => ({
   message: message({
     sequence: imageNumber,
-    snapshot: snapshot({ image_number: imageNumber, age_ms: ageMs }),
+    image_age_ms: ageMs,
+    snapshot: snapshot({ image_number: imageNumber }),
   }),
   jpeg,
 });

@@ -225,9 +225,9 @@ export class Live {
   }
 
   private receivedImageFrom(message: LiveMessage, receivedAtMs: number): ReceivedImage | null {
-    const { snapshot, headline } = message;
-    if (snapshot === null) return null;
-    const capturedAtMs = this.clock.capturedAtMs(receivedAtMs, snapshot.age_ms, snapshot.captured_at_s);
+    const { snapshot, headline, image_age_ms: ageMs } = message;
+    if (snapshot === null || ageMs === null) return null;
+    const capturedAtMs = this.clock.capturedAtMs(receivedAtMs, ageMs, snapshot.captured_at_s);
     return { snapshot, headline, capturedAtMs, receivedAtMs };
   }
 

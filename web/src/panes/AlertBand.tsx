@@ -13,13 +13,14 @@ export function AlertBand(): ReactNode {
   const note = view.link === "open" ? noteOf(view) : null;
   return (
     <div className="alerts" role="region" aria-label={texts.alerts.title} aria-live="polite">
-      {problems.map(({ code, message, remedy }) => (
-        <p className="alert" key={code} data-testid="alert">
+      {problems.map((problem) => (
+        <p className="alert" key={problem.code} data-testid="alert">
           <span aria-hidden="true">▲▲</span>
-          <strong lang={languageOf(message, texts)}>{sentence(textOf(message, texts))}</strong>
+          <strong lang={languageOf(problem, texts)}>{sentence(textOf(problem.message, texts))}</strong>
           <span>
-            {texts.alerts.remedy} <span lang={languageOf(remedy, texts)}>{textOf(remedy, texts)}</span>{" "}
-            <code>{code}</code>
+            {texts.alerts.remedy}{" "}
+            <span lang={languageOf(problem, texts)}>{textOf(problem.remedy, texts)}</span>{" "}
+            <code>{problem.code}</code>
           </span>
         </p>
       ))}

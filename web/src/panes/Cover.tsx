@@ -10,11 +10,13 @@ interface CoverProps {
   title: string;
   state?: string | undefined;
   sentence: string;
+  /** Language of the sentence, where it is not that of the page. */
+  lang?: string | undefined;
   children?: ReactNode;
 }
 
 /** Large words over content that is not live. Opaque, so that nothing old shows through. */
-export function Cover({ urgency, title, state, sentence, children }: CoverProps): ReactNode {
+export function Cover({ urgency, title, state, sentence, lang, children }: CoverProps): ReactNode {
   return (
     <div className="cover" data-urgency={urgency}>
       <p className="cover-title">
@@ -24,7 +26,9 @@ export function Cover({ urgency, title, state, sentence, children }: CoverProps)
         {title}
       </p>
       {state !== undefined && <p className="cover-state">{state}</p>}
-      <p className="cover-sentence">{sentence}</p>
+      <p className="cover-sentence" lang={lang}>
+        {sentence}
+      </p>
       {children}
     </div>
   );

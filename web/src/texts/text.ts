@@ -1,14 +1,14 @@
 // A text that the server sends in every language.
-import type { TextMessage } from "../live/messages";
+import type { LiveProblemMessage, TextMessage } from "../live/messages";
 import type { Texts } from "./en";
 
 export function textOf(text: TextMessage, texts: Texts): string {
   return texts.language === "de" ? text.de : text.en;
 }
 
-/** Its language, for `lang`: what has no translation is sent in English for every language. */
-export function languageOf(text: TextMessage, texts: Texts): Texts["language"] {
-  return text.de === text.en ? "en" : texts.language;
+/** The language of a problem's texts, for `lang`: without a translation they are English for every language. */
+export function languageOf(problem: LiveProblemMessage, texts: Texts): Texts["language"] {
+  return problem.is_translated ? texts.language : "en";
 }
 
 /** Such a text in an untyped line of a log; empty if there is none. */

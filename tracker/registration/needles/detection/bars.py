@@ -44,22 +44,22 @@ def bars(grey: Image8, narrowest_px: float, widest_px: float) -> list[Bar]:
     along = line / length[:, None]
     pieces = []
     for n in range(len(edges)):
-        start, way, beside = edges[n, :2], along[n], np.array([-along[n, 1], along[n, 0]])
+        start, direction, beside = edges[n, :2], along[n], np.array([-along[n, 1], along[n, 0]])
         # An edge's direction encodes its bright side, so the two edges of a bar are antiparallel.
-        facing = along @ way < -np.cos(np.radians(MAX_SKEW_DEG))
-        first, second = (edges[:, :2] - start) @ way, (edges[:, 2:] - start) @ way
+        facing = along @ direction < -np.cos(np.radians(MAX_SKEW_DEG))
+        first, second = (edges[:, :2] - start) @ direction, (edges[:, 2:] - start) @ direction
         low = np.maximum(np.minimum(first, second), 0.0)
         high = np.minimum(np.maximum(first, second), length[n])
         middle = 0.5 * (edges[:, :2] + edges[:, 2:])
         # The distance within the overlap, so that a slight skew of long edges has no effect.
-        shared = start + (0.5 * (low + high))[:, None] * way
+        shared = start + (0.5 * (low + high))[:, None] * direction
         at = np.einsum("ij,ij->i", shared - middle, -along)
         width = (middle - at[:, None] * along - shared) @ beside
         good = facing & (high - low >= MIN_SHARED_PX)
         good &= (np.abs(width) >= narrowest_px) & (np.abs(width) <= widest_px)
         for m in np.flatnonzero(good):
             if m > n:
-                mean = way - along[m]
+                mean = direction - along[m]
                 pieces.append(
                     Bar(
                         middle_px=shared[m] + 0.5 * width[m] * beside,

@@ -4,7 +4,7 @@ import { formatNumber } from "../../live/rounding";
 import { cameraFacts } from "../../panes/cameraFacts";
 import { searchTimeMs } from "../../panes/searchTime";
 import { problemsOf } from "../../panes/problems";
-import { textOf } from "../../texts/text";
+import { languageOf, textOf } from "../../texts/text";
 import { useTexts } from "../../texts/TextsContext";
 import { sentence } from "../parts/format";
 import { Card } from "../parts/Card";
@@ -55,7 +55,10 @@ export function CameraTest(): ReactNode {
       </dl>
       {problemsOf(view).map((problem) => (
         <p key={problem.code} className="bad" role="alert">
-          ▲ {sentence(textOf(problem.message, texts))} {textOf(problem.remedy, texts)}
+          ▲{" "}
+          <span lang={languageOf(problem, texts)}>
+            {sentence(textOf(problem.message, texts))} {textOf(problem.remedy, texts)}
+          </span>
         </p>
       ))}
       {snapshot === null && problemsOf(view).length === 0 && <p className="soft">{texts.camera.waiting}</p>}

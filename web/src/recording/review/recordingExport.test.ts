@@ -7,8 +7,12 @@ import { exportOf, exportText } from "./recordingExport";
 const FILE = { file: "a.mp4", size_bytes: 14_000_000, images: 120 };
 
 test("a video states how many of its images have no results", () => {
-  expect(exportText({ ...FILE, undrawn: 0 }, en)).toBe("120 images, 120 with the overlay. 14.0 MB");
-  expect(exportText({ ...FILE, undrawn: 7 }, en)).toContain("113 with the overlay. The others state why");
+  expect(exportText({ ...FILE, images_without_overlay: 0 }, en)).toBe(
+    "120 images, 120 with the overlay. 14.0 MB",
+  );
+  expect(exportText({ ...FILE, images_without_overlay: 7 }, en)).toContain(
+    "113 with the overlay. The others state why",
+  );
 });
 
 test("a section states where it begins and whether it can be replayed exactly", () => {

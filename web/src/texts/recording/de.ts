@@ -85,7 +85,7 @@ export const recordingDe: RecordingTexts = {
           "{count} Bilder dazwischen wurden nicht aufgenommen; danach ist der Abschnitt ab dem nächsten gespeicherten Zustand wiederholbar.",
       },
       videoMade: { one: "{count} Bild, {drawn} mit Overlay.", other: "{count} Bilder, {drawn} mit Overlay." },
-      undrawn: "Auf den anderen steht, warum das Overlay fehlt.",
+      withoutOverlay: "Auf den anderen steht, warum das Overlay fehlt.",
     },
     kinds: {
       navigation: "Navigation",

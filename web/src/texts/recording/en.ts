@@ -86,7 +86,7 @@ export const recordingEn = {
         one: "{count} image, {drawn} with the overlay.",
         other: "{count} images, {drawn} with the overlay.",
       },
-      undrawn: "The others state why the overlay is missing.",
+      withoutOverlay: "The others state why the overlay is missing.",
     },
     kinds: {
       navigation: "Navigation",
