@@ -1,5 +1,5 @@
 # Coaxial. `make help` lists the targets; `make run` and `make test` do their own set-up.
-# All build output is in .venv, dist, web/node_modules, web/dist and docs/site; `make clean` deletes it.
+# All build output is in .venv, dist, web/node_modules, web/dist, web/src/api and docs/site; `make clean` deletes it.
 # The home folder is neither read nor written. With the stamps in .venv a second start needs no network.
 # Cases are in .coaxial unless COAXIAL_HOME names another folder; no target deletes them.
 
@@ -35,8 +35,8 @@ export npm_config_omit_lockfile_registry_resolved := true
 WORKERS ?= 3
 
 TRACKER_SOURCES := $(shell find tracker -name '*.py')
-# Folders are listed too, because their time changes when a file is deleted. The schema's types are generated.
-PAGE_SOURCES := $(shell find web/src web/public -not -name schema.d.ts 2>/dev/null) \
+# Folders are listed too, because their time changes when a file is deleted. The client of the API is generated.
+PAGE_SOURCES := $(shell find web/src web/public -not -path 'web/src/api*' 2>/dev/null) \
 	$(filter-out web/dist web/node_modules,$(wildcard web/*.json web/*.ts web/*.js web/*.html))
 
 GUIDE_SOURCES := docs/zensical.toml $(shell find docs/guide 2>/dev/null)
@@ -120,7 +120,7 @@ types-page: $(STAMPS)/page-packages
 	@$(NPM) run --silent types
 
 # The static checks of the gate, in two parts that run in parallel. Those of the page run one after the other, because
-# two at once could both generate the schema's types.
+# two at once could both generate the client of the API.
 .PHONY: judged-python judged-page
 judged-python:
 	@$(MAKE) lint-python
@@ -173,7 +173,7 @@ lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade for the newest v
 
 .PHONY: clean
 clean: ## delete all build output, but no case
-	rm -rf .venv dist docs/site docs/.cache web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	rm -rf .venv dist docs/site docs/.cache web/node_modules web/dist web/src/api web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find tracker server tests -name __pycache__ -type d -prune -exec rm -rf {} +
 	@if [ -e .coaxial ]; then echo "Kept: .coaxial, the folder with the cases. Remove it by hand to lose them."; fi
 

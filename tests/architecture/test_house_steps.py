@@ -107,11 +107,10 @@ def test_a_browser_on_the_path_is_found(bare_path: Path) -> None:
 @pytest.mark.parametrize(
     ("version", "taken"),
     [
-        ("20.18.3", False),
-        ("20.19.0", True),
-        ("21.7.0", False),
-        ("22.11.0", False),
-        ("22.12.0", True),
+        ("20.20.2", False),
+        ("22.17.1", False),
+        ("22.18.0", True),
+        ("24.0.0", True),
         ("26.1.0", True),
     ],
 )

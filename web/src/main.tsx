@@ -53,6 +53,7 @@ import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 import { App } from "./app/App";
 import { SessionProvider } from "./app/session";
+import "./rest/client";
 import { theme } from "./theme/theme";
 import { textsFor } from "./texts/language";
 import { TextsProvider } from "./texts/TextsContext";

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
-import { answered, server } from "../rest/client";
+import { postProcedureConfirmation } from "../api";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useAction } from "../rest/useAction";
 import { useTexts } from "../texts/TextsContext";
@@ -32,7 +32,7 @@ function Question(): ReactNode {
   const confirm = async (): Promise<void> => {
     await doing.run(async () => {
       const body = { registration_id: needed.registration_id };
-      await answered(server.POST("/api/procedure/confirmation", { body }));
+      await postProcedureConfirmation({ body });
     });
     refetch();
   };

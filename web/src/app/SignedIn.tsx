@@ -1,7 +1,7 @@
 import { Alert, Button, Modal } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
-import { answered, server } from "../rest/client";
+import { getPeople } from "../api";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useQuery } from "../rest/useQuery";
 import { useAction } from "../rest/useAction";
@@ -17,7 +17,7 @@ export function SignedIn(): ReactNode {
   const { busy, rejection, run, forget } = useAction();
   const isOperator = session.state === "in" && session.who.role === "operator";
   const { data: people, rejection: silent } = useQuery(
-    async (signal) => (isConfirming && isOperator ? answered(server.GET("/api/people", { signal })) : null),
+    async (signal) => (isConfirming && isOperator ? getPeople({ signal }) : null),
     { key: String(isConfirming && isOperator) },
   );
   if (session.state !== "in" || !session.required) return null;

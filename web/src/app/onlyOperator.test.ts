@@ -1,9 +1,9 @@
 import { expect, test } from "vitest";
-import type { components } from "../schema";
+import type { InvitationMessage, SignedInMessage } from "../api";
 import { isOnlyOperator } from "./onlyOperator";
 
-type Session = components["schemas"]["SignedInMessage"];
-type Invitation = components["schemas"]["InvitationMessage"];
+type Session = SignedInMessage;
+type Invitation = InvitationMessage;
 
 const session = (changed: Partial<Session>): Session => ({
   id: "a",

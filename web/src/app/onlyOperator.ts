@@ -1,7 +1,7 @@
 // Whether another person could sign in as operator. Pure.
-import type { components } from "../schema";
+import type { PeopleMessage } from "../api";
 
-type People = components["schemas"]["PeopleMessage"];
+type People = PeopleMessage;
 
 /** True if no other operator is signed in and no operator invitation is open. */
 export function isOnlyOperator({ sessions, invitations }: Pick<People, "sessions" | "invitations">): boolean {

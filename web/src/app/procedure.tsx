@@ -1,13 +1,12 @@
 // State of the procedure, polled once for the whole page, often enough that a gate never looks open
 // after it has closed.
 import { createContext, use, useCallback, useEffect, useMemo, useState, type ReactNode } from "react";
-import { answered, server } from "../rest/client";
 import { useQuery, type QueryState } from "../rest/useQuery";
-import type { components } from "../schema";
+import { getProcedure, type ProcedureMessage, type StepMessage } from "../api";
 import type { ViewName } from "./views";
 
-export type Procedure = components["schemas"]["ProcedureMessage"];
-export type Step = components["schemas"]["StepMessage"];
+export type Procedure = ProcedureMessage;
+export type Step = StepMessage;
 
 const OFTEN_MS = 1000;
 /** For a screen that only displays: fast changes arrive with each image. */
@@ -24,7 +23,7 @@ const ProcedureContext = createContext<SharedQuery | null>(null);
 
 export function ProcedureProvider({ view, children }: { view: ViewName; children: ReactNode }): ReactNode {
   const [hurried, setHurried] = useState(0);
-  const query = useQuery((signal) => answered(server.GET("/api/procedure", { signal })), {
+  const query = useQuery((signal) => getProcedure({ signal }), {
     everyMs: view === "theatre" && hurried === 0 ? SELDOM_MS : OFTEN_MS,
   });
   const hurry = useCallback(() => {

@@ -9,7 +9,8 @@ import {
   useState,
   type ReactNode,
 } from "react";
-import { answered, onSessionGone, Rejection, server } from "../rest/client";
+import { deleteSession, getSession } from "../api";
+import { onSessionGone, Rejection } from "../rest/client";
 import { sessionAfter, type Session } from "./sessionAfter";
 
 export type { Role, Session, Who } from "./sessionAfter";
@@ -30,7 +31,7 @@ const SessionContext = createContext<SessionValue | null>(null);
 /** The user, or the code of the reason why there is none. */
 async function ask(): Promise<Session | string> {
   try {
-    const { name, role, sign_in_required } = await answered(server.GET("/api/session"));
+    const { name, role, sign_in_required } = await getSession();
     return { state: "in", who: { name, role }, required: sign_in_required };
   } catch (error) {
     if (error instanceof Rejection) return error.problem.code;
@@ -57,7 +58,7 @@ export function SessionProvider({ children }: { children: ReactNode }): ReactNod
   }, []);
 
   const leave = useCallback(async () => {
-    await answered(server.DELETE("/api/session"));
+    await deleteSession();
     setSession({ state: "out", expired: false });
   }, []);
 

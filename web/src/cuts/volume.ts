@@ -1,5 +1,6 @@
 // The CT around the navigated vertebra, sent once: voxels, position and named windows.
-import { answeredWithResponse, server } from "../rest/client";
+import type { GetNavigationCtData } from "../api";
+import { client } from "../api/client.gen";
 import { inverseAffine, type GreyWindow, type Voxels } from "./cut";
 
 export interface Volume {
@@ -14,9 +15,13 @@ export interface Volume {
  * @throws Rejection
  */
 export async function loadVolume(signal: AbortSignal): Promise<Volume | null> {
-  // Revalidated each time; answered from the browser's cache if unchanged.
-  const request = server.GET("/api/navigation/ct", { parseAs: "arrayBuffer", cache: "no-cache", signal });
-  const { data, response } = await answeredWithResponse(request);
+  // The generated function returns no headers. Revalidated each time; answered from the browser's cache if unchanged.
+  const { data, response } = await client.get<ArrayBuffer, unknown, true>({
+    url: "/api/navigation/ct" satisfies GetNavigationCtData["url"],
+    parseAs: "arrayBuffer",
+    cache: "no-cache",
+    signal,
+  });
   if (response.status === 204) return null;
   return volumeFrom(response.headers.get("volume-place") ?? "", data);
 }

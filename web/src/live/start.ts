@@ -1,6 +1,6 @@
 // Connects the pure parts to the browser: WebSockets, timers, requests, visibility.
-import createClient from "openapi-fetch";
-import type { components, paths } from "../schema";
+import { type DashboardMessage, getDashboard, getLive } from "../api";
+import { Rejection } from "../rest/client";
 import { storedPictureChoice, storePictureChoice } from "./storedPictureChoice";
 import { MessageConnection } from "./messageConnection";
 import { ViewConnection, type ViewSocket } from "./viewConnection";
@@ -12,15 +12,13 @@ import type { WebSocketLike } from "./reconnectingSocket";
 import { isSceneNote } from "./sceneAge";
 import { socketAddress } from "./socketAddress";
 
-export type Dashboard = components["schemas"]["DashboardMessage"];
+export type Dashboard = DashboardMessage;
 
 const ASK_WHEN_QUIET_MS = 300;
 const ASK_TIMEOUT_MS = 450;
 const COMPARE_CLOCKS_EVERY_MS = 5000;
 const NEW_LINE_WHEN_QUIET_MS = 2500;
 const MEASURE_EVERY_PICTURES = 5;
-
-const server = createClient<paths>({ baseUrl: location.origin });
 
 /** Starts everything; the returned function stops it. */
 export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): () => void {
@@ -38,15 +36,16 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     try {
       if (live.hasMessage) {
         requestedAtMs = requestedNowMs;
-        const { data } = await server.GET("/api/live", { signal: timeout, cache: "no-store" });
-        live.receiveAnswer(data ?? null, requestedNowMs, generation);
+        live.receiveAnswer(await getLive({ signal: timeout }), requestedNowMs, generation);
       } else {
         // Before the first image the only question is whether the server answers.
-        await server.GET("/api/dashboard", { signal: timeout, cache: "no-store" });
+        await getDashboard({ signal: timeout });
         live.receiveAnswer(null, requestedNowMs, generation);
       }
-    } catch {
-      // A missing answer is measured by `quietMs`.
+    } catch (error) {
+      // A rejection is an answer too; a missing one is measured by `quietMs`.
+      const isAnswer = error instanceof Rejection && error.status !== null;
+      if (isAnswer) live.receiveAnswer(null, requestedNowMs, generation);
     } finally {
       isRequesting = false;
     }
@@ -207,12 +206,11 @@ async function introduce(
   signal: AbortSignal,
 ): Promise<void> {
   try {
-    const { data } = await server.GET("/api/dashboard", { signal, cache: "no-store" });
-    if (!data) return;
-    live.setLimits(data.limits);
-    onDashboard(data);
+    const dashboard = await getDashboard({ signal });
+    live.setLimits(dashboard.limits);
+    onDashboard(dashboard);
   } catch {
-    // The connection was lost again; the next one requests anew.
+    // Rejected, or the connection was lost again; the next one requests anew.
   }
 }
 

@@ -1,10 +1,10 @@
 // Texts of the check of the planned screw: one sentence with its values, and each remedy with its result.
-import type { components } from "../schema";
+import type { SetupCheckMessage } from "../api";
 import { formatNumber } from "../live/rounding";
 import { interpolate } from "../texts/interpolate";
 import type { SetupCheckTexts } from "../texts/setupCheck/en";
 
-export type SetupCheck = components["schemas"]["SetupCheckMessage"];
+export type SetupCheck = SetupCheckMessage;
 type Remedy = SetupCheck["remedies"][number];
 
 export function setupSentence(check: SetupCheck, side: string, texts: SetupCheckTexts): string {

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useProcedure } from "../app/procedure";
-import { answered, server } from "../rest/client";
+import { postRecordingsConsent } from "../api";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useAction } from "../rest/useAction";
 import { useTexts } from "../texts/TextsContext";
@@ -20,7 +20,7 @@ export function ConsentAnswers({ caseId, onAnswer }: ConsentAnswersProps): React
   const answer = async (isGiven: boolean): Promise<void> => {
     const isStored = await doing.run(async () => {
       const body = { case_id: caseId, is_given: isGiven };
-      await answered(server.POST("/api/recordings/consent", { body }));
+      await postRecordingsConsent({ body });
     });
     if (isStored) onAnswer(isGiven);
   };

@@ -1,7 +1,7 @@
 import { Button, Modal } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useProcedure } from "../app/procedure";
-import { answered, server } from "../rest/client";
+import { postRecordingsStart, postRecordingsStop } from "../api";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useAction } from "../rest/useAction";
 import { useTexts } from "../texts/TextsContext";
@@ -19,7 +19,7 @@ export function RecordControl(): ReactNode {
   const isOn = recording?.is_recording === true;
   const start = async (): Promise<void> => {
     await doing.run(async () => {
-      await answered(server.POST("/api/recordings/start"));
+      await postRecordingsStart();
     });
     refetch();
   };
@@ -29,7 +29,7 @@ export function RecordControl(): ReactNode {
   };
   const stop = async (): Promise<void> => {
     await doing.run(async () => {
-      await answered(server.POST("/api/recordings/stop"));
+      await postRecordingsStop();
     });
     refetch();
   };

@@ -3,18 +3,22 @@ import { useState, type ReactNode } from "react";
 import { useProcedure } from "../app/procedure";
 import { ConfirmButton } from "../operator/parts/ConfirmButton";
 import { formatBytes, formatTime } from "../operator/parts/format";
-import { answered, server } from "../rest/client";
 import { QueryStatus } from "../rest/QueryStatus";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useAction } from "../rest/useAction";
 import { useQuery } from "../rest/useQuery";
-import type { components } from "../schema";
+import {
+  deleteRecordingsByName,
+  getRecordings,
+  putRecordingsByNameProtection,
+  type RecordingMessage,
+} from "../api";
 import { interpolate } from "../texts/interpolate";
 import { useTexts } from "../texts/TextsContext";
 import { clockDuration } from "./recordingText";
 import { Review } from "./review/Review";
 
-type Stored = components["schemas"]["RecordingMessage"];
+type Stored = RecordingMessage;
 
 /** Recordings of the open case and the review of one. Users with the right may protect and delete them. */
 export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
@@ -27,8 +31,7 @@ export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
   // The list contains a recording only after its first bytes are written.
   const isWritten = (procedure?.recording?.size_bytes ?? 0) > 0;
   const query = useQuery(
-    async (signal) =>
-      caseId === null ? null : (await answered(server.GET("/api/recordings", { signal }))).recordings,
+    async (signal) => (caseId === null ? null : (await getRecordings({ signal })).recordings),
     { key: `${caseId ?? ""} ${running} ${isWritten}` },
   );
   const [chosen, setChosen] = useState<string | null>(null);
@@ -76,17 +79,17 @@ function RecordingRow(props: RecordingRowProps): ReactNode {
   const own = texts.recording.list;
   const doing = useAction();
   const { name, is_protected, is_running, duration_s } = recording;
-  const params = { path: { name } };
+  const path = { name };
   const protect = async (): Promise<void> => {
     await doing.run(async () => {
       const body = { is_protected: !is_protected };
-      await answered(server.PUT("/api/recordings/{name}/protection", { params, body }));
+      await putRecordingsByNameProtection({ path, body });
     });
     onChange();
   };
   const remove = async (): Promise<void> => {
     await doing.run(async () => {
-      await answered(server.DELETE("/api/recordings/{name}", { params }));
+      await deleteRecordingsByName({ path });
     });
     onChange();
   };

@@ -1,8 +1,8 @@
 // Consent to recording, and whom the page asks for it. Pure.
-import type { components } from "../schema";
+import type { ConsentMessage } from "../api";
 import type { Recording } from "./recordingText";
 
-export type Consent = components["schemas"]["ConsentMessage"];
+export type Consent = ConsentMessage;
 
 /** Whether a recording may start without a question. */
 export function isConsented(consent: Consent): boolean {

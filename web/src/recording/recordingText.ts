@@ -1,11 +1,11 @@
 // Texts of the current or last recording. Pure.
 import { formatBytes } from "../operator/parts/format";
-import type { components } from "../schema";
+import type { RecordingStateMessage } from "../api";
 import { interpolate } from "../texts/interpolate";
 import { pluralize } from "../texts/pluralize";
 import type { RecordingTexts } from "../texts/recording/en";
 
-export type Recording = components["schemas"]["RecordingStateMessage"];
+export type Recording = RecordingStateMessage;
 
 export interface RecordingText {
   state: "on" | "off" | "stopped";

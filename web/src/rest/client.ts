@@ -1,23 +1,24 @@
-// Typed client of the server's API. A rejection keeps the server's message, context and remedy.
-import createClient from "openapi-fetch";
-import type { components, paths } from "../schema";
+// Configures the generated client of the server's API (`src/api`). A rejection keeps the server's message, context and
+// remedy. `main.tsx` imports this file, before anything is requested.
+import type { ProblemMessage as Problem } from "../api";
+import { client } from "../api/client.gen";
 import { pageLanguage } from "../texts/pageLanguage";
 
-export type Problem = components["schemas"]["ProblemMessage"];
-
-export const server = createClient<paths>({ baseUrl: location.origin, cache: "no-store" });
+export type { Problem };
 
 const gone = new EventTarget();
 const GONE = "session-gone";
 
-server.use({
-  onRequest({ request }) {
-    request.headers.set("Accept-Language", pageLanguage());
-  },
-  onResponse({ response }) {
-    if (response.status === 401) gone.dispatchEvent(new Event(GONE));
-  },
+client.setConfig({ baseUrl: location.origin, cache: "no-store" });
+client.interceptors.request.use((request) => {
+  request.headers.set("Accept-Language", pageLanguage());
+  return request;
 });
+client.interceptors.response.use((response) => {
+  if (response.status === 401) gone.dispatchEvent(new Event(GONE));
+  return response;
+});
+client.interceptors.error.use(rejectionOf);
 
 /** Called when the server answers that the session is missing or has ended; its answer ends the session. */
 export function onSessionGone(listener: () => void): () => void {
@@ -27,14 +28,14 @@ export function onSessionGone(listener: () => void): () => void {
   };
 }
 
-/** The server rejected the request or did not answer (`NO_ANSWER`). */
+/** The server rejected the request or did not answer (`NO_ANSWER`). Every function of `src/api` throws it. */
 export class Rejection extends Error {
-  constructor(readonly problem: Problem) {
+  /** `status` is that of the response; null without one. */
+  constructor(
+    readonly problem: Problem,
+    readonly status: number | null = null,
+  ) {
     super(problem.message);
-  }
-
-  get isSessionGone(): boolean {
-    return this.problem.code === "SESSION_NEEDED" || this.problem.code === "SESSION_EXPIRED";
   }
 }
 
@@ -46,43 +47,15 @@ export const NO_ANSWER: Problem = {
   language: "en",
 };
 
-interface Answer<Data> {
-  data?: Data;
-  error?: unknown;
-  response: Response;
+/** Returns what a request throws; an aborted one stays an `AbortError`. */
+function rejectionOf(error: unknown, response: Response | undefined): unknown {
+  if (error instanceof DOMException && error.name === "AbortError") return error;
+  // An answer that cannot be read is none.
+  if (response === undefined || response.ok) return new Rejection(NO_ANSWER);
+  const { status } = response;
+  return new Rejection(isProblem(error) ? error : { ...NO_ANSWER, context: { status } }, status);
 }
 
-/**
- * Returns the body of an answer: `await answered(server.GET("/api/cases"))`.
- *
- * @throws Rejection
- */
-export async function answered<Data>(request: Promise<Answer<Data>>): Promise<Data> {
-  return (await answeredWithResponse(request)).data;
-}
-
-/**
- * Returns the body with the response, for its status and headers.
- *
- * @throws Rejection
- */
-export async function answeredWithResponse<Data>(
-  request: Promise<Answer<Data>>,
-): Promise<{ data: Data; response: Response }> {
-  let answer: Answer<Data>;
-  try {
-    answer = await request;
-  } catch (error) {
-    if (error instanceof DOMException && error.name === "AbortError") throw error;
-    throw new Rejection(NO_ANSWER);
-  }
-  if (!answer.response.ok) throw new Rejection(problemOf(answer.error, answer.response));
-  return { data: answer.data as Data, response: answer.response };
-}
-
-function problemOf(error: unknown, response: Response): Problem {
-  if (typeof error === "object" && error !== null && "code" in error && "message" in error) {
-    return error as Problem;
-  }
-  return { ...NO_ANSWER, context: { status: response.status } };
+function isProblem(error: unknown): error is Problem {
+  return typeof error === "object" && error !== null && "code" in error && "message" in error;
 }

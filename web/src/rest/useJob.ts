@@ -1,9 +1,9 @@
 // Polls a job until it ends, also across lost connections.
 import { useCallback, useEffect, useEffectEvent, useState } from "react";
-import type { components } from "../schema";
-import { answered, Rejection, server } from "./client";
+import { deleteJobsByJobId, getJobsByJobId, type JobMessage } from "../api";
+import { Rejection } from "./client";
 
-export type Job = components["schemas"]["JobMessage"];
+export type Job = JobMessage;
 
 const ASK_EVERY_MS = 300;
 const OVER: ReadonlySet<Job["state"]> = new Set<Job["state"]>(["done", "failed", "cancelled"]);
@@ -28,7 +28,7 @@ export function useJob(onOver: (job: Job) => void): JobFollowed {
     if (id === null) return;
     let stopped = false;
     const timer = setInterval(() => {
-      answered(server.GET("/api/jobs/{job_id}", { params: { path: { job_id: id } } }))
+      getJobsByJobId({ path: { job_id: id } })
         .then((now) => {
           if (stopped) return;
           setJob(now);
@@ -49,10 +49,7 @@ export function useJob(onOver: (job: Job) => void): JobFollowed {
 
   const cancel = useCallback(() => {
     if (id === null) return;
-    void answered(server.DELETE("/api/jobs/{job_id}", { params: { path: { job_id: id } } })).then(
-      setJob,
-      () => undefined,
-    );
+    void deleteJobsByJobId({ path: { job_id: id } }).then(setJob, () => undefined);
   }, [id]);
   const forget = useCallback(() => {
     setJob(null);

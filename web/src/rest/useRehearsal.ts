@@ -1,10 +1,9 @@
 // State of the rehearsal; requested only if the source is the simulated theatre.
 import { useLive } from "../live/LiveContext";
-import type { components } from "../schema";
-import { answered, server } from "./client";
+import { getRehearsal, type RehearsalMessage } from "../api";
 import { useQuery, type QueryState } from "./useQuery";
 
-export type Rehearsed = components["schemas"]["RehearsalMessage"];
+export type Rehearsed = RehearsalMessage;
 
 interface Wish {
   everyMs?: number;
@@ -16,8 +15,7 @@ interface Wish {
 export function useRehearsal({ everyMs = 0, truth = false }: Wish = {}): QueryState<Rehearsed | null> {
   const isRehearsal = useLive().view.newest?.source.name === "rehearsal";
   return useQuery<Rehearsed | null>(
-    async (signal) =>
-      isRehearsal ? answered(server.GET("/api/rehearsal", { signal, params: { query: { truth } } })) : null,
+    async (signal) => (isRehearsal ? getRehearsal({ signal, query: { truth } }) : null),
     { key: String(isRehearsal), everyMs },
   );
 }

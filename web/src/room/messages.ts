@@ -1,16 +1,16 @@
 // Messages of the room, typed by the server's schema. The page's messages are defined in
 // `server/api/supervision_messages.py` (`Said`).
-import type { components } from "../schema";
+import type {
+  HoldMessage as Hold,
+  PersonMessage as Person,
+  SignableMessage as Signable,
+  YouMessage as You,
+  ConnectionState,
+  RoomMessage,
+  Shape,
+} from "../api";
 
-type Schemas = components["schemas"];
-
-export type RoomMessage = Schemas["RoomMessage"];
-export type Person = Schemas["PersonMessage"];
-export type Hold = Schemas["HoldMessage"];
-export type You = Schemas["YouMessage"];
-export type Signable = Schemas["SignableMessage"];
-export type Shape = Schemas["Shape"];
-export type ConnectionState = Schemas["ConnectionState"];
+export type { ConnectionState, Hold, Person, RoomMessage, Shape, Signable, You };
 
 export type Point = readonly [number, number];
 

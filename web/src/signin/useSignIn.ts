@@ -3,7 +3,8 @@ import { useEffect, useEffectEvent, useRef, useState } from "react";
 import { useLocation } from "wouter";
 import { useSession } from "../app/session";
 import { homeOf } from "../app/views";
-import { answered, Rejection, server } from "../rest/client";
+import { postSession } from "../api";
+import { Rejection } from "../rest/client";
 import { takeToken } from "./token";
 
 interface SignIn {
@@ -25,7 +26,7 @@ export function useSignIn(): SignIn {
     trying.current = true;
     setBusy(true);
     setRejection(null);
-    answered(server.POST("/api/session", { body: { invitation: token } }))
+    postSession({ body: { invitation: token } })
       .then(({ role }) => {
         refetch();
         go(homeOf(role), { replace: true });

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { answered, server } from "../rest/client";
+import { postAlarmsHold, postAlarmsRelease } from "../api";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useAction } from "../rest/useAction";
 import { useRoomSnapshot } from "../room/RoomContext";
@@ -33,7 +33,7 @@ export function HoldPanel(): ReactNode {
           busy={busy}
           onDone={() =>
             void run(async () => {
-              await answered(server.POST("/api/alarms/hold", { body: {} }));
+              await postAlarmsHold({ body: {} });
             })
           }
         />
@@ -47,7 +47,7 @@ export function HoldPanel(): ReactNode {
             disabled={busy}
             onClick={() =>
               void run(async () => {
-                await answered(server.POST("/api/alarms/release", { body: {} }));
+                await postAlarmsRelease({ body: {} });
               })
             }
           >

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { formatSecond } from "../operator/parts/format";
-import { answered, server } from "../rest/client";
+import { getAlarmsLog } from "../api";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useQuery } from "../rest/useQuery";
 import { textIn } from "../texts/text";
@@ -15,9 +15,7 @@ const LINES = 100;
 export function LogPanel(): ReactNode {
   const texts = useTexts();
   const own = texts.supervisor.log;
-  const query = useQuery((signal) =>
-    answered(server.GET("/api/alarms/log", { params: { query: { last: LINES } }, signal })),
-  );
+  const query = useQuery((signal) => getAlarmsLog({ query: { last: LINES }, signal }));
   const { data } = query;
   if (data === null) return <QueryStatus query={query} />;
   return (

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { formatNumber } from "../live/rounding";
-import { answered, server } from "../rest/client";
+import { getPlan } from "../api";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useQuery } from "../rest/useQuery";
 import type { Signable } from "../room/messages";
@@ -13,10 +13,7 @@ import { pluralize } from "../texts/pluralize";
 export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
   const texts = useTexts().supervisor;
   const key = signable.document_id ?? "";
-  const query = useQuery(
-    (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/plan", { signal }))),
-    { key },
-  );
+  const query = useQuery((signal) => (key === "" ? Promise.resolve(null) : getPlan({ signal })), { key });
   if (key === "") return <p className="soft">{texts.plan.none}</p>;
   const { data } = query;
   if (data === null) return <QueryStatus query={query} />;

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { formatNumber } from "../live/rounding";
-import { answered, server } from "../rest/client";
+import { getRegistration } from "../api";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useQuery } from "../rest/useQuery";
 import type { Signable } from "../room/messages";
@@ -13,10 +13,9 @@ export function RegistrationPanel({ signable }: { signable: Signable }): ReactNo
   const texts = useTexts().supervisor;
   const own = texts.registration;
   const key = signable.document_id ?? "";
-  const query = useQuery(
-    (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/registration", { signal }))),
-    { key },
-  );
+  const query = useQuery((signal) => (key === "" ? Promise.resolve(null) : getRegistration({ signal })), {
+    key,
+  });
   if (key === "") return <p className="soft">{own.none}</p>;
   const { data } = query;
   if (data === null) return <QueryStatus query={query} />;

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { useSession } from "../app/session";
 import { Maker } from "../operator/parts/Maker";
-import { answered, server } from "../rest/client";
+import { deleteSupervisionSignaturesBySignatureId, postSupervisionSignatures } from "../api";
 import { RejectionNote } from "../rest/RejectionNote";
 import { formatTime } from "../operator/parts/format";
 import { useAction } from "../rest/useAction";
@@ -63,7 +63,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
             busy={busy}
             onDone={() =>
               void run(async () => {
-                await answered(server.POST("/api/supervision/signatures", { body: { what, document_id } }));
+                await postSupervisionSignatures({ body: { what, document_id } });
               })
             }
           />
@@ -77,9 +77,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
           onDone={() =>
             void run(async () => {
               const path = { signature_id: mine.id };
-              await answered(
-                server.DELETE("/api/supervision/signatures/{signature_id}", { params: { path } }),
-              );
+              await deleteSupervisionSignaturesBySignatureId({ path });
             })
           }
         />

@@ -1,11 +1,11 @@
 import type { ReactNode } from "react";
 import { formatTime } from "../operator/parts/format";
 import { interpolate } from "../texts/interpolate";
-import type { components } from "../schema";
+import type { SignatureMessage } from "../api";
 import { useTexts } from "../texts/TextsContext";
 
 /** One signature: who, when, whether it is certainly a second person, and who invited them. */
-export function SignatureLine({ of: one }: { of: components["schemas"]["SignatureMessage"] }): ReactNode {
+export function SignatureLine({ of: one }: { of: SignatureMessage }): ReactNode {
   const all = useTexts();
   const texts = all.supervisor.sign;
   return (

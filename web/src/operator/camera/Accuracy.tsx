@@ -1,9 +1,8 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
-import type { components } from "../../schema";
+import { type CalibrationConfig, type DocumentMessage, postCameraAccuracy } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
@@ -16,8 +15,8 @@ import { isBoard, type Board } from "./board";
 
 interface AccuracyProps {
   board: Board;
-  check: components["schemas"]["DocumentMessage"] | null;
-  gate: components["schemas"]["CalibrationConfig"];
+  check: DocumentMessage | null;
+  gate: CalibrationConfig;
   onChecked: () => void;
 }
 
@@ -31,7 +30,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
   const run = (): void => {
     void checking
       .run(async () => {
-        await answered(server.POST("/api/camera/accuracy", { body: { board, made_by: madeBy } }));
+        await postCameraAccuracy({ body: { board, made_by: madeBy } });
       })
       .then((done) => {
         setCheckedHere(done);

@@ -1,6 +1,6 @@
 import { Button, SegmentedControl, Select } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { postCameraBoard, postCameraCollection } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
@@ -28,20 +28,13 @@ export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): R
   const begin = (): void => {
     void beginning
       .run(async () => {
-        await answered(server.POST("/api/camera/collection", { body: { board } }));
+        await postCameraCollection({ body: { board } });
       })
       .then(onBegun);
   };
   const print = (): void => {
     void printing.run(async () => {
-      const query = server.POST("/api/camera/board", {
-        body: { board, paper, file: "pdf" },
-        parseAs: "blob",
-      });
-      saved(
-        await answered(query as Promise<{ data?: Blob; error?: unknown; response: Response }>),
-        `board-${paper}.pdf`,
-      );
+      saved(await postCameraBoard({ body: { board, paper, file: "pdf" } }), `board-${paper}.pdf`);
     });
   };
   return (

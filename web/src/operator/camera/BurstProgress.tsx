@@ -1,6 +1,7 @@
 import { Button } from "@mantine/core";
 import { useEffect, useRef, type ReactNode } from "react";
-import { answered, Rejection, server } from "../../rest/client";
+import { getCameraReadoutCollection } from "../../api";
+import { Rejection } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
@@ -18,7 +19,7 @@ interface BurstProgressProps {
 /** Instructions for the board, and progress of capture and detection. */
 export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): ReactNode {
   const texts = useTexts().camera.readout;
-  const query = useQuery((signal) => answered(server.GET("/api/camera/readout/collection", { signal })), {
+  const query = useQuery((signal) => getCameraReadoutCollection({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const { data } = query;

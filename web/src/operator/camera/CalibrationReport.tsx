@@ -1,7 +1,7 @@
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { formatFigure } from "../../live/rounding";
-import type { components } from "../../schema";
+import type { CalibrationConfig, DocumentMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
@@ -14,8 +14,8 @@ import { reportIn, type View } from "./report";
 
 interface CalibrationReportProps {
   caseId: string;
-  calibration: components["schemas"]["DocumentMessage"];
-  gate: components["schemas"]["CalibrationConfig"];
+  calibration: DocumentMessage;
+  gate: CalibrationConfig;
   /** Identifies a calibration that was just made here. */
   fresh: string | null;
 }

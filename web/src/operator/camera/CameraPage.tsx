@@ -1,6 +1,6 @@
 import { useState, type ReactNode } from "react";
 import { VideoPane } from "../../panes/VideoPane";
-import { answered, server } from "../../rest/client";
+import { getCamera } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -25,7 +25,7 @@ export function CameraPage(): ReactNode {
   const gatesQuery = useGates();
   const [calibratedHere, setCalibratedHere] = useState(false);
   const [board, setBoard] = useState<Board>(startingBoard);
-  const query = useQuery((signal) => answered(server.GET("/api/camera", { signal })), {
+  const query = useQuery((signal) => getCamera({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const { data, refetch } = query;

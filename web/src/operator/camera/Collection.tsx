@@ -1,6 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, Rejection, server } from "../../rest/client";
+import { deleteCameraCollection, getCameraCollection, postCameraCalibration } from "../../api";
+import { Rejection } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { QueryStatus } from "../../rest/QueryStatus";
@@ -31,13 +32,13 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
   const texts = useTexts().camera;
   const madeBy = useMaker();
   const doing = useAction();
-  const query = useQuery((signal) => answered(server.GET("/api/camera/collection", { signal })), {
+  const query = useQuery((signal) => getCameraCollection({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const { data, refetch } = query;
   const end = async (): Promise<void> => {
     await doing.run(async () => {
-      await answered(server.DELETE("/api/camera/collection"));
+      await deleteCameraCollection();
     });
     onOver();
   };
@@ -49,7 +50,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
   });
   const calibrate = (): void => {
     void doing.run(async () => {
-      followed.follow(await answered(server.POST("/api/camera/calibration", { body: { made_by: madeBy } })));
+      followed.follow(await postCameraCalibration({ body: { made_by: madeBy } }));
     });
   };
   if (data === null) return <QueryStatus query={query} />;

@@ -1,9 +1,9 @@
 import type { ReactNode } from "react";
-import type { components } from "../../schema";
+import type { CollectionMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
 
-type Collected = components["schemas"]["CollectionMessage"];
+type Collected = CollectionMessage;
 
 /** Grid of the image: past positions of the board, and its present corners. */
 export function Coverage({ collected }: { collected: Collected }): ReactNode {

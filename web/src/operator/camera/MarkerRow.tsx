@@ -1,9 +1,8 @@
 import type { ReactNode } from "react";
 import { useLive } from "../../live/LiveContext";
-import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
-import type { components } from "../../schema";
+import { deleteMarkersByName, type KnownMarkerMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
 import { ConfirmButton } from "../parts/ConfirmButton";
@@ -11,7 +10,7 @@ import { useMaker } from "../parts/useMaker";
 import type { MarkerGate } from "./Markers";
 import { ScoreBar } from "./ScoreBar";
 
-export type KnownMarker = components["schemas"]["KnownMarkerMessage"];
+export type KnownMarker = KnownMarkerMessage;
 
 interface MarkerRowProps {
   marker: KnownMarker;
@@ -41,8 +40,8 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
   const remove = (): void => {
     void removing
       .run(async () => {
-        const params = { path: { name: marker.name }, query: { made_by: madeBy } };
-        await answered(server.DELETE("/api/markers/{name}", { params }));
+        const options = { path: { name: marker.name }, query: { made_by: madeBy } };
+        await deleteMarkersByName(options);
       })
       .then(onRemoved);
   };

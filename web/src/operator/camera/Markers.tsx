@@ -1,14 +1,13 @@
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
-import type { components } from "../../schema";
+import { getMarkers, type TrackerConfig } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { MarkerRow } from "./MarkerRow";
 import { NewMarker } from "./NewMarker";
 
-export type MarkerGate = components["schemas"]["TrackerConfig"];
+export type MarkerGate = TrackerConfig;
 
 interface MarkersProps {
   gate: MarkerGate;
@@ -20,7 +19,7 @@ interface MarkersProps {
 /** The loaded markers with their live detection, and a form to add one. */
 export function Markers({ gate, canAdd, onChange }: MarkersProps): ReactNode {
   const texts = useTexts().camera;
-  const query = useQuery((signal) => answered(server.GET("/api/markers", { signal })), {
+  const query = useQuery((signal) => getMarkers({ signal }), {
     everyMs: 3000,
   });
   const { data, refetch } = query;

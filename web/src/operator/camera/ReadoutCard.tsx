@@ -1,7 +1,13 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { formatNumber } from "../../live/rounding";
-import { answered, Rejection, server } from "../../rest/client";
+import {
+  deleteCameraReadoutCollection,
+  getCameraReadout,
+  postCameraReadoutCollection,
+  postCameraReadoutMeasurement,
+} from "../../api";
+import { Rejection } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { QueryStatus } from "../../rest/QueryStatus";
@@ -30,7 +36,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
   const madeBy = useMaker();
   const doing = useAction();
   const [rejected, setRejected] = useState<Rejection | null>(null);
-  const query = useQuery((signal) => answered(server.GET("/api/camera/readout", { signal })), {
+  const query = useQuery((signal) => getCameraReadout({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const { data, refetch } = query;
@@ -41,7 +47,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
   const end = (): void => {
     void doing
       .run(async () => {
-        await answered(server.DELETE("/api/camera/readout/collection"));
+        await deleteCameraReadoutCollection();
       })
       .then(refetch);
   };
@@ -55,14 +61,14 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
     setRejected(null);
     void doing
       .run(async () => {
-        await answered(server.POST("/api/camera/readout/collection", { body: { board } }));
+        await postCameraReadoutCollection({ body: { board } });
       })
       .then(refetch);
   };
   const measure = (): void => {
     void doing.run(async () => {
       const body = { made_by: madeBy };
-      followed.follow(await answered(server.POST("/api/camera/readout/measurement", { body })));
+      followed.follow(await postCameraReadoutMeasurement({ body }));
     });
   };
   if (data === null) return <QueryStatus query={query} />;

@@ -1,6 +1,6 @@
 import { Button, NumberInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { putCameraReadout } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
@@ -21,7 +21,7 @@ export function StatedReadout({ readoutMs, onStored }: StatedReadoutProps): Reac
     const readout_ms = typeof typed === "number" ? typed : null;
     void keeping
       .run(async () => {
-        await answered(server.PUT("/api/camera/readout", { body: { readout_ms, made_by: madeBy } }));
+        await putCameraReadout({ body: { readout_ms, made_by: madeBy } });
       })
       .then(onStored);
   };

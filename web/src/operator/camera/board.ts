@@ -1,7 +1,7 @@
 // Calibration boards and their parameters.
-import type { components } from "../../schema";
+import type { CollectionMessage } from "../../api";
 
-export type Board = components["schemas"]["CollectionMessage"]["board"];
+export type Board = CollectionMessage["board"];
 export type Pattern = Board["pattern"];
 
 /** Default board of each kind, as printed by this program and shown in the rehearsal. */

@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { postCasesByCaseIdOpen } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
@@ -24,7 +24,7 @@ export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNod
   const open = (id: string): void => {
     void opening
       .run(async () => {
-        await answered(server.POST("/api/cases/{case_id}/open", { params: { path: { case_id: id } } }));
+        await postCasesByCaseIdOpen({ path: { case_id: id } });
       })
       .then(onChange);
   };

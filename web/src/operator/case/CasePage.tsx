@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { getCases } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useProcedure } from "../../app/procedure";
@@ -17,7 +17,7 @@ const ASK_EVERY_MS = 3000;
 /** The case page: create, open, inspect, archive and close cases. */
 export function CasePage(): ReactNode {
   const { refetch: askProcedure } = useProcedure();
-  const query = useQuery((signal) => answered(server.GET("/api/cases", { signal })), {
+  const query = useQuery((signal) => getCases({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const { data, refetch } = query;

@@ -1,6 +1,6 @@
 import { Button, Modal, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { postCasesByCaseIdDeletion } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
@@ -13,8 +13,8 @@ export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => voi
   const deleting = useAction();
   const remove = async (): Promise<void> => {
     const done = await deleting.run(async () => {
-      const params = { path: { case_id: leaving.id } };
-      await answered(server.POST("/api/cases/{case_id}/deletion", { params, body: { confirm } }));
+      const path = { case_id: leaving.id };
+      await postCasesByCaseIdDeletion({ path, body: { confirm } });
     });
     if (done) onEnd();
   };

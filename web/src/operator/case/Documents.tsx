@@ -1,9 +1,8 @@
 import { Badge, Switch, Table } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
-import type { components } from "../../schema";
+import { getCasesByCaseIdDocuments, type HeadingMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
@@ -11,7 +10,7 @@ import { sentence, formatTime } from "../parts/format";
 import { documentTitle } from "./documentTitle";
 import { newestOf } from "./newest";
 
-type Heading = components["schemas"]["HeadingMessage"];
+type Heading = HeadingMessage;
 
 const ASK_EVERY_MS = 3000;
 
@@ -19,13 +18,10 @@ const ASK_EVERY_MS = 3000;
 export function Documents({ caseId }: { caseId: string }): ReactNode {
   const texts = useTexts().case;
   const [all, setAll] = useState(false);
-  const query = useQuery(
-    (signal) =>
-      answered(
-        server.GET("/api/cases/{case_id}/documents", { signal, params: { path: { case_id: caseId } } }),
-      ),
-    { key: caseId, everyMs: ASK_EVERY_MS },
-  );
+  const query = useQuery((signal) => getCasesByCaseIdDocuments({ signal, path: { case_id: caseId } }), {
+    key: caseId,
+    everyMs: ASK_EVERY_MS,
+  });
   const { data } = query;
   const shown = data === null ? [] : all ? [...data.documents].reverse() : newestOf(data.documents);
   return (

@@ -1,6 +1,6 @@
 import { Button, Progress } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { deleteJobsByJobId, getJobs } from "../../api";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
 import { RejectionNote } from "../../rest/RejectionNote";
@@ -15,13 +15,13 @@ const SHOWN = 5;
 export function Jobs(): ReactNode {
   const texts = useTexts();
   const cancelling = useAction();
-  const { data, refetch } = useQuery((signal) => answered(server.GET("/api/jobs", { signal })), {
+  const { data, refetch } = useQuery((signal) => getJobs({ signal }), {
     everyMs: 1000,
   });
   const cancel = (job: Job): void => {
     void cancelling
       .run(async () => {
-        await answered(server.DELETE("/api/jobs/{job_id}", { params: { path: { job_id: job.id } } }));
+        await deleteJobsByJobId({ path: { job_id: job.id } });
       })
       .then(refetch);
   };

@@ -1,6 +1,6 @@
 import { Button, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { postCases, postCasesByCaseIdOpen } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
@@ -13,8 +13,8 @@ export function NewCase({ first, onMade }: { first: boolean; onMade: () => void 
   const making = useAction();
   const make = async (): Promise<void> => {
     const done = await making.run(async () => {
-      const made = await answered(server.POST("/api/cases", { body: { name: name.trim() } }));
-      await answered(server.POST("/api/cases/{case_id}/open", { params: { path: { case_id: made.id } } }));
+      const made = await postCases({ body: { name: name.trim() } });
+      await postCasesByCaseIdOpen({ path: { case_id: made.id } });
     });
     // Refreshed even if only opening was rejected, since the case then exists.
     onMade();

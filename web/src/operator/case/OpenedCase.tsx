@@ -1,16 +1,15 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
-import type { components } from "../../schema";
+import { type CaseMessage, postCasesByCaseIdClose } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { formatTime } from "../parts/format";
 import { ArchiveOut } from "./ArchiveOut";
 import { Rename } from "./Rename";
 
-export type Case = components["schemas"]["CaseMessage"];
+export type Case = CaseMessage;
 
 /** The open case: name, archive, and close button. */
 export function OpenedCase({ opened, onChange }: { opened: Case; onChange: () => void }): ReactNode {
@@ -19,8 +18,8 @@ export function OpenedCase({ opened, onChange }: { opened: Case; onChange: () =>
   const close = (): void => {
     void closing
       .run(async () => {
-        const params = { path: { case_id: opened.id } };
-        await answered(server.POST("/api/cases/{case_id}/close", { params }));
+        const path = { case_id: opened.id };
+        await postCasesByCaseIdClose({ path });
       })
       .then(onChange);
   };

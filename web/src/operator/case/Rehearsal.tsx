@@ -1,14 +1,13 @@
 import { Button, Select } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useRehearsal } from "../../rest/useRehearsal";
-import type { components } from "../../schema";
+import { putRehearsal, type SceneRequest } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 
-type Wish = components["schemas"]["SceneRequest"];
+type Wish = SceneRequest;
 type Scene = Wish["scene"];
 type Skill = NonNullable<Wish["skill"]>;
 type Board = NonNullable<Wish["board"]>;
@@ -43,7 +42,7 @@ export function Rehearsal(): ReactNode {
     void playing
       .run(async () => {
         const body = { ...played, ...chosen, events: [] };
-        await answered(server.PUT("/api/rehearsal", { body }));
+        await putRehearsal({ body });
       })
       .then(() => {
         refetch();

@@ -1,6 +1,6 @@
 import { Button, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { patchCasesByCaseId } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
@@ -15,8 +15,8 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
   const rename = async (to: string): Promise<void> => {
     const was = case_.name;
     const done = await renaming.run(async () => {
-      const params = { path: { case_id: case_.id } };
-      await answered(server.PATCH("/api/cases/{case_id}", { params, body: { name: to } }));
+      const path = { case_id: case_.id };
+      await patchCasesByCaseId({ path, body: { name: to } });
     });
     if (!done) return;
     setBefore(before === null ? was : null);

@@ -1,10 +1,9 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
-import type { components } from "../../schema";
+import { getCasesByCaseIdFiles, postCasesByCaseIdVerification, type VerificationMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { sentence, formatBytes } from "../parts/format";
@@ -13,17 +12,17 @@ import { pluralize } from "../../texts/pluralize";
 /** Verifies all files of a case on request. */
 export function Verification({ caseId }: { caseId: string }): ReactNode {
   const { case: texts, rest, language } = useTexts();
-  const [found, setFound] = useState<components["schemas"]["VerificationMessage"] | null>(null);
+  const [found, setFound] = useState<VerificationMessage | null>(null);
   const verifying = useAction();
-  const params = { path: { case_id: caseId } };
-  const { data, rejection } = useQuery(
-    (signal) => answered(server.GET("/api/cases/{case_id}/files", { signal, params })),
-    { key: caseId, everyMs: 5000 },
-  );
+  const path = { case_id: caseId };
+  const { data, rejection } = useQuery((signal) => getCasesByCaseIdFiles({ signal, path }), {
+    key: caseId,
+    everyMs: 5000,
+  });
   const verify = (): void => {
     setFound(null);
     void verifying.run(async () => {
-      setFound(await answered(server.POST("/api/cases/{case_id}/verification", { params })));
+      setFound(await postCasesByCaseIdVerification({ path }));
     });
   };
   const bytes = (data?.files ?? []).reduce((sum, file) => sum + file.size_bytes, 0);

@@ -1,9 +1,9 @@
 // Titles of documents for display; the server's names are identifiers.
-import type { components } from "../../schema";
+import type { HeadingMessage } from "../../api";
 import type { CaseTexts } from "../../texts/case/en";
 import { interpolate } from "../../texts/interpolate";
 
-type Heading = Pick<components["schemas"]["HeadingMessage"], "kind" | "name">;
+type Heading = Pick<HeadingMessage, "kind" | "name">;
 type Title = keyof CaseTexts["titles"];
 
 /** Patterns of the server's names by kind; the group is the displayed name. */

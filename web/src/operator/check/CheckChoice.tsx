@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { getPlan, postRegistrationCheck } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
@@ -24,7 +24,7 @@ interface CheckChoiceProps {
 /** Choice of a landmark that was not used for the registration. */
 export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps): ReactNode {
   const texts = useTexts().check;
-  const plan = useQuery((signal) => answered(server.GET("/api/plan", { signal })));
+  const plan = useQuery((signal) => getPlan({ signal }));
   const first = useTools()?.[0]?.name ?? "";
   const [tool, setTool] = useState("");
   const [picked, setPicked] = useState<string | null>(null);
@@ -81,11 +81,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
             if (landmark === null) return;
             void beginning
               .run(async () => {
-                await answered(
-                  server.POST("/api/registration/check", {
-                    body: { landmark: landmark.name, tool: touching },
-                  }),
-                );
+                await postRegistrationCheck({ body: { landmark: landmark.name, tool: touching } });
               })
               .then(onBegun);
           }}

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { formatNumber } from "../../live/rounding";
-import type { components } from "../../schema";
+import type { CheckRuleMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { useIntoView } from "../parts/useIntoView";
@@ -8,7 +8,7 @@ import { interpolate } from "../../texts/interpolate";
 import { minutesLeft } from "./due";
 
 interface CheckDueProps {
-  rule: components["schemas"]["CheckRuleMessage"];
+  rule: CheckRuleMessage;
   /** Identifies a check that was just saved here. */
   fresh: string | null;
 }

@@ -1,12 +1,12 @@
 import { Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { formatNumber } from "../../live/rounding";
-import type { components } from "../../schema";
+import type { CheckRecord } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
 
 /** Distance of the tip from the planned landmark, with its limit and direction. */
-export function CheckOutcome({ outcome }: { outcome: components["schemas"]["CheckRecord"] }): ReactNode {
+export function CheckOutcome({ outcome }: { outcome: CheckRecord }): ReactNode {
   const texts = useTexts().check;
   const [left = 0, back = 0, head = 0] = outcome.off_lps_mm;
   const way = (mm: number, plus: string, minus: string): string =>

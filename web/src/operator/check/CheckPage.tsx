@@ -1,6 +1,6 @@
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
-import { answered, server } from "../../rest/client";
+import { getRegistration } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -35,7 +35,7 @@ export function CheckPage(): ReactNode {
 function Checking({ registrationId }: { registrationId: string }): ReactNode {
   const running = useActiveProcedures();
   const [stored, setStored] = useState(0);
-  const registration = useQuery((signal) => answered(server.GET("/api/registration", { signal })), {
+  const registration = useQuery((signal) => getRegistration({ signal }), {
     key: registrationId,
   });
   if (registration.data === null) return <QueryStatus query={registration} Note={RegistrationRejection} />;

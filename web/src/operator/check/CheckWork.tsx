@@ -1,7 +1,12 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useLocation } from "wouter";
-import { answered, server } from "../../rest/client";
+import {
+  deleteRegistrationCheck,
+  getRegistrationCheck,
+  postRegistrationCheck,
+  postRegistrationCheckConclusion,
+} from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
@@ -29,7 +34,7 @@ export function CheckWork({ onOver, onStored }: CheckWorkProps): ReactNode {
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const query = useQuery((signal) => answered(server.GET("/api/registration/check", { signal })), {
+  const query = useQuery((signal) => getRegistrationCheck({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const doing = useAction();
@@ -61,8 +66,7 @@ export function CheckWork({ onOver, onStored }: CheckWorkProps): ReactNode {
           onClick={() => {
             const passed = outcome?.passed === true;
             run(
-              () =>
-                answered(server.POST("/api/registration/check/conclusion", { body: { made_by: madeBy } })),
+              () => postRegistrationCheckConclusion({ body: { made_by: madeBy } }),
               (done) => {
                 procedure.refetch();
                 onOver();
@@ -81,12 +85,7 @@ export function CheckWork({ onOver, onStored }: CheckWorkProps): ReactNode {
             data-testid="check-again"
             onClick={() => {
               run(
-                () =>
-                  answered(
-                    server.POST("/api/registration/check", {
-                      body: { landmark: capture.landmark, tool: data.tool },
-                    }),
-                  ),
+                () => postRegistrationCheck({ body: { landmark: capture.landmark, tool: data.tool } }),
                 query.refetch,
               );
             }}
@@ -98,7 +97,7 @@ export function CheckWork({ onOver, onStored }: CheckWorkProps): ReactNode {
             variant="default"
             data-testid="check-end"
             onClick={() => {
-              run(() => answered(server.DELETE("/api/registration/check")), onOver);
+              run(() => deleteRegistrationCheck(), onOver);
             }}
           >
             {texts.other}

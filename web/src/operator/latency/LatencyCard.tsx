@@ -1,6 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, Rejection, server } from "../../rest/client";
+import { postLatencyMeasurement } from "../../api";
+import { Rejection } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useLatency } from "../../rest/useLatency";
@@ -22,7 +23,7 @@ export function LatencyCard(): ReactNode {
   const begin = (): void => {
     setRejection(null);
     void beginning.run(async () => {
-      setPlan(await answered(server.POST("/api/latency/measurement", { body: { codes: CODES } })));
+      setPlan(await postLatencyMeasurement({ body: { codes: CODES } }));
     });
   };
   const onOver = (result: Result | null, rejected: Rejection | null): void => {

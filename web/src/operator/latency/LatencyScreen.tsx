@@ -1,7 +1,8 @@
 import { Button, Progress as Bar } from "@mantine/core";
 import { useEffect, useEffectEvent, useRef, useState, type ReactNode } from "react";
 import { useLive } from "../../live/LiveContext";
-import { Rejection, server } from "../../rest/client";
+import { deleteLatencyMeasurement } from "../../api";
+import { Rejection } from "../../rest/client";
 import { interpolate } from "../../texts/interpolate";
 import { useTexts } from "../../texts/TextsContext";
 import { useMaker } from "../parts/useMaker";
@@ -34,7 +35,7 @@ export function LatencyScreen({ plan, onOver }: LatencyScreenProps): ReactNode {
     const end = (): void => {
       if (signal.aborted) return;
       leaving.abort();
-      void server.DELETE("/api/latency/measurement", { keepalive: true }).catch(() => undefined);
+      void deleteLatencyMeasurement({ keepalive: true }).catch(() => undefined);
     };
     const leave = (): void => {
       if (signal.aborted) return;

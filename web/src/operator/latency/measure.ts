@@ -1,14 +1,20 @@
 // Runs a measurement: paints codes, records what the page displays, and sends it to the server for evaluation.
 import type { Live } from "../../live/live";
-import { answered, Rejection, server } from "../../rest/client";
-import type { components } from "../../schema";
+import { Rejection } from "../../rest/client";
+import {
+  getLatencyMeasurement,
+  type LatencyCodesMessage,
+  type LatencyReadingMessage,
+  type LatencyResultMessage,
+  postLatencyMeasurementConclusion,
+} from "../../api";
 import { CodeSequence } from "./codes";
 import { drawCode } from "./drawCode";
 import { LatencyNotes } from "./notes";
 
-export type Plan = components["schemas"]["LatencyCodesMessage"];
-export type Result = components["schemas"]["LatencyResultMessage"];
-type Reading = components["schemas"]["LatencyReadingMessage"];
+export type Plan = LatencyCodesMessage;
+export type Result = LatencyResultMessage;
+type Reading = LatencyReadingMessage;
 
 export interface Progress {
   lookedImages: number;
@@ -63,7 +69,7 @@ export async function measure(measured: Measured): Promise<Result | null> {
       onProgress({ lookedImages, readImages, doneRatio: sequence.doneRatio });
     }
     const body = notes.conclusion(madeBy, innerWidth, innerHeight);
-    return await answered(server.POST("/api/latency/measurement/conclusion", { body }));
+    return await postLatencyMeasurementConclusion({ body });
   } finally {
     live.onShown = null;
     stopPainting();
@@ -91,7 +97,7 @@ function paintEachFrame({ plan, canvas }: Measured, sequence: CodeSequence, note
 
 async function fetchResult(notes: LatencyNotes): Promise<Reading> {
   const requestedAtMs = performance.now();
-  const reading = await answered(server.GET("/api/latency/measurement"));
+  const reading = await getLatencyMeasurement();
   notes.compare(requestedAtMs, performance.now(), reading.server_s);
   return reading;
 }

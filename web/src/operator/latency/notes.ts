@@ -1,8 +1,8 @@
 // Records what the page displayed during the measurement, on its own clock. Pure.
-import type { components } from "../../schema";
+import type { LatencyConclusionRequest } from "../../api";
 import type { PaintedImage } from "../../live/view";
 
-type Conclusion = components["schemas"]["LatencyConclusionRequest"];
+type Conclusion = LatencyConclusionRequest;
 type Painted = Conclusion["painted"][number];
 type ShownImage = Conclusion["shown"][number];
 type Comparison = Conclusion["comparisons"][number];

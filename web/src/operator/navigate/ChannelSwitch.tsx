@@ -1,5 +1,5 @@
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { getPlan, postPlanActiveChannel } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
@@ -21,7 +21,7 @@ export function ChannelSwitch(): ReactNode {
   const isPlanned = procedure.data?.steps.some((one) => one.step === "plan" && one.document_id !== null);
   const plan = useQuery(
     // Without a plan there is nothing to switch to.
-    async (signal) => (isPlanned === true ? answered(server.GET("/api/plan", { signal })) : null),
+    async (signal) => (isPlanned === true ? getPlan({ signal }) : null),
     { key: String(isPlanned) },
   );
   const [shown, setShown] = useState(false);
@@ -70,15 +70,13 @@ export function ChannelSwitch(): ReactNode {
                 onConfirm={() => {
                   void switching
                     .run(async () => {
-                      await answered(
-                        server.POST("/api/plan/active-channel", {
-                          body: {
-                            made_by: madeBy,
-                            vertebra: one.vertebra,
-                            side: one.side === "right" ? "right" : "left",
-                          },
-                        }),
-                      );
+                      await postPlanActiveChannel({
+                        body: {
+                          made_by: madeBy,
+                          vertebra: one.vertebra,
+                          side: one.side === "right" ? "right" : "left",
+                        },
+                      });
                     })
                     .then(() => {
                       setShown(false);

@@ -2,11 +2,16 @@ import { NumberInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useProcedure } from "../../app/procedure";
 import { formatNumber } from "../../live/rounding";
-import { answered, server } from "../../rest/client";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useAction } from "../../rest/useAction";
 import { useQuery } from "../../rest/useQuery";
-import type { components } from "../../schema";
+import {
+  type ChannelStateMessage,
+  deleteNavigationPlacementsByDocumentId,
+  getNavigationPlacements,
+  type PlacementsMessage,
+  postNavigationPlacements,
+} from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
 import { ConfirmButton } from "../parts/ConfirmButton";
@@ -17,8 +22,8 @@ import { useMadeBy } from "../registration/useMadeBy";
 import { useSides } from "../registration/useSides";
 import { placedFigures } from "./placedFigures";
 
-type Channel = components["schemas"]["ChannelStateMessage"];
-type Placements = components["schemas"]["PlacementsMessage"];
+type Channel = ChannelStateMessage;
+type Placements = PlacementsMessage;
 
 /** The planned channels with their state; "placed here" stores where the drill is now. */
 export function PlacedScrews(): ReactNode {
@@ -34,7 +39,7 @@ export function PlacedScrews(): ReactNode {
 function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
   const texts = useTexts().navigate.screws;
   const madeBy = useMadeBy();
-  const query = useQuery((signal) => answered(server.GET("/api/navigation/placements", { signal })), {
+  const query = useQuery((signal) => getNavigationPlacements({ signal }), {
     key: stepsKey,
   });
   const acting = useAction();
@@ -57,8 +62,8 @@ function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
             channel={one}
             busy={acting.busy}
             onWithdraw={(documentId) => {
-              const params = { path: { document_id: documentId }, query: { made_by: madeBy } };
-              act(() => answered(server.DELETE("/api/navigation/placements/{document_id}", { params })));
+              const options = { path: { document_id: documentId }, query: { made_by: madeBy } };
+              act(() => deleteNavigationPlacementsByDocumentId(options));
             }}
           />
         ))}
@@ -68,9 +73,7 @@ function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
           channel={active}
           busy={acting.busy}
           onPlace={(size) => {
-            act(() =>
-              answered(server.POST("/api/navigation/placements", { body: { made_by: madeBy, ...size } })),
-            );
+            act(() => postNavigationPlacements({ body: { made_by: madeBy, ...size } }));
           }}
         />
       )}

@@ -1,12 +1,12 @@
 import { expect, test } from "vitest";
-import type { components } from "../../schema";
+import type { PlacedFigureMessage, PlacementMessage } from "../../api";
 import { de } from "../../texts/de";
 import { en } from "../../texts/en";
 import { placedFigures } from "./placedFigures";
 
-type Placement = components["schemas"]["PlacementMessage"];
+type Placement = PlacementMessage;
 
-const figure = (value: number | null): Placement["figures"][string] => ({
+const figure = (value: number | null): PlacedFigureMessage => ({
   value,
   limit: null,
   error_95: null,

@@ -1,16 +1,16 @@
 // Figures of a placed screw as one line. Pure.
 import { formatNumber } from "../../live/rounding";
-import type { components } from "../../schema";
+import type { PlacementMessage } from "../../api";
 import type { Texts } from "../../texts/en";
 import { interpolate } from "../../texts/interpolate";
 
-type Placement = components["schemas"]["PlacementMessage"];
+type Placement = PlacementMessage;
 
 /** Entry, angle, error and wall as they were displayed; missing ones are omitted. */
 export function placedFigures(placement: Placement, texts: Texts): string {
   const { screws } = texts.navigate;
   const { figures, wall, clearance_mm, grade } = placement;
-  const known = (name: string): number | null => figures[name]?.value ?? null;
+  const known = (name: keyof Placement["figures"]): number | null => figures[name]?.value ?? null;
   const [entry, angle, error] = [known("entry"), known("angle"), known("error")];
   return [
     entry === null ? "" : interpolate(screws.entry, { mm: formatNumber(entry, 1) }),

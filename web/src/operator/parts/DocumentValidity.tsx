@@ -1,10 +1,10 @@
 import type { ReactNode } from "react";
-import type { components } from "../../schema";
+import type { HeadingMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { documentTitle } from "../case/documentTitle";
 import { sentence } from "./format";
 
-type Heading = components["schemas"]["HeadingMessage"];
+type Heading = HeadingMessage;
 
 /** Validity of a document, and what it depends on. */
 export function DocumentValidity({

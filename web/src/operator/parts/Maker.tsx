@@ -1,11 +1,11 @@
 import type { ReactNode } from "react";
-import type { components } from "../../schema";
+import type { ImportedMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { formatTime } from "./format";
 
 interface Made {
   made_by: string | null;
-  imported: components["schemas"]["ImportedMessage"] | null;
+  imported: ImportedMessage | null;
 }
 
 /** Author of a document. For imported documents: according to the archive, and who imported it. */

@@ -1,9 +1,8 @@
-import { answered, server } from "../../rest/client";
 import { useQuery } from "../../rest/useQuery";
-import type { components } from "../../schema";
+import { getCasesByCaseIdDocuments, type HeadingMessage } from "../../api";
 import { useProcedure } from "../../app/procedure";
 
-type Heading = components["schemas"]["HeadingMessage"];
+type Heading = HeadingMessage;
 
 /** Documents of the open case, empty without one; null until the server has answered. */
 export function useDocuments(): readonly Heading[] | null {
@@ -12,8 +11,8 @@ export function useDocuments(): readonly Heading[] | null {
   const { data } = useQuery(
     async (signal) => {
       if (caseId === null) return { documents: [] };
-      const params = { path: { case_id: caseId } };
-      return answered(server.GET("/api/cases/{case_id}/documents", { signal, params }));
+      const path = { case_id: caseId };
+      return getCasesByCaseIdDocuments({ signal, path });
     },
     { key: caseId ?? "", everyMs: 3000 },
   );

@@ -1,10 +1,9 @@
-import { answered, server } from "../../rest/client";
 import { useQuery, type QueryState } from "../../rest/useQuery";
-import type { components } from "../../schema";
+import { type GatesMessage, getGates } from "../../api";
 
-export type Gates = components["schemas"]["GatesMessage"];
+export type Gates = GatesMessage;
 
 /** The limits of each step. */
 export function useGates(): QueryState<Gates> {
-  return useQuery((signal) => answered(server.GET("/api/gates", { signal })));
+  return useQuery((signal) => getGates({ signal }));
 }

@@ -1,6 +1,6 @@
 import { Alert, Button, Table } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { getAudit } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -16,12 +16,9 @@ export function AuditLog(): ReactNode {
   const texts = all.people;
   const [before, setBefore] = useState<number | null>(null);
   const range = before === null ? { last: LINES } : { last: LINES, before };
-  const query = useQuery(
-    (signal) => answered(server.GET("/api/audit", { params: { query: range }, signal })),
-    {
-      key: String(before),
-    },
-  );
+  const query = useQuery((signal) => getAudit({ query: range, signal }), {
+    key: String(before),
+  });
   const { data, refetch } = query;
   const rows = (data?.lines ?? []).map((line) => auditRow(line, all)).reverse();
   const oldest = rows.at(-1)?.number ?? 0;

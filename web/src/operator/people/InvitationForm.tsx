@@ -1,14 +1,13 @@
 import { Button, Checkbox, SegmentedControl, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import type { Role } from "../../app/session";
-import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
-import type { components } from "../../schema";
+import { type InvitedMessage, postPeopleInvitations } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { InvitationLink } from "./InvitationLink";
 
-type Invited = components["schemas"]["InvitedMessage"];
+type Invited = InvitedMessage;
 
 const ROLES: readonly Role[] = ["supervisor", "viewer", "screen", "camera", "operator"];
 const HOURS = [1, 24, 168];
@@ -27,7 +26,7 @@ export function InvitationForm({ onInvited }: { onInvited: () => void }): ReactN
 
   const invite = async (): Promise<void> => {
     const body = { name: name.trim(), role, lasts_h: hours, single_use: singleUse, for_machine: forMachine };
-    setInvited(await answered(server.POST("/api/people/invitations", { body })));
+    setInvited(await postPeopleInvitations({ body }));
     setName("");
     onInvited();
   };

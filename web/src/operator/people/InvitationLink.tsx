@@ -1,10 +1,10 @@
 import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import type { components } from "../../schema";
+import type { InvitedMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 
 interface Props {
-  invited: components["schemas"]["InvitedMessage"];
+  invited: InvitedMessage;
   onDone: () => void;
 }
 

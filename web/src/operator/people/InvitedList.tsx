@@ -1,14 +1,13 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
-import type { components } from "../../schema";
+import { deletePeopleInvitationsByInvitationId, type InvitationMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { formatTime } from "../parts/format";
 
 interface Props {
-  invitations: components["schemas"]["InvitationMessage"][];
+  invitations: InvitationMessage[];
   onRevoked: () => void;
 }
 
@@ -18,8 +17,8 @@ export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
   const texts = all.people;
   const { busy, rejection, run } = useAction();
   const revoke = async (invitation_id: string): Promise<void> => {
-    const params = { path: { invitation_id } };
-    await answered(server.DELETE("/api/people/invitations/{invitation_id}", { params }));
+    const path = { invitation_id };
+    await deletePeopleInvitationsByInvitationId({ path });
     onRevoked();
   };
   return (

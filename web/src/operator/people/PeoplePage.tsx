@@ -1,7 +1,7 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
 import { SignedIn } from "../../app/SignedIn";
-import { answered, server } from "../../rest/client";
+import { getPeople } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -15,7 +15,7 @@ const ASK_EVERY_MS = 3000;
 /** The people page: sessions, invitations, audit log. */
 export function PeoplePage(): ReactNode {
   const texts = useTexts().people;
-  const query = useQuery((signal) => answered(server.GET("/api/people", { signal })), {
+  const query = useQuery((signal) => getPeople({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const { data, refetch } = query;

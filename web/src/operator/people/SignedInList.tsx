@@ -1,14 +1,13 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
-import type { components } from "../../schema";
+import { deletePeopleSessionsBySessionId, type SignedInMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { formatTime } from "../parts/format";
 
 interface Props {
-  sessions: components["schemas"]["SignedInMessage"][];
+  sessions: SignedInMessage[];
   onEnded: () => void;
 }
 
@@ -18,7 +17,7 @@ export function SignedInList({ sessions, onEnded }: Props): ReactNode {
   const texts = all.people;
   const { busy, rejection, run } = useAction();
   const end = async (session_id: string): Promise<void> => {
-    await answered(server.DELETE("/api/people/sessions/{session_id}", { params: { path: { session_id } } }));
+    await deletePeopleSessionsBySessionId({ path: { session_id } });
     onEnded();
   };
   return (

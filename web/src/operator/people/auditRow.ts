@@ -1,5 +1,5 @@
 // Converts a line of the audit log to a table row; the exported log is unchanged.
-import type { components } from "../../schema";
+import type { DocumentKind } from "../../api";
 import type { Texts } from "../../texts/catalogue";
 import { documentTitle } from "../case/documentTitle";
 
@@ -17,7 +17,7 @@ interface AuditRow {
 }
 
 type Line = Readonly<Record<string, unknown>>;
-type Kind = components["schemas"]["DocumentKind"];
+type Kind = DocumentKind;
 
 const REJECTED = 400;
 const FAILED = 500;

@@ -1,6 +1,6 @@
 import { Alert, Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { putPlan } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { Icon } from "../../panes/Icon";
 import { useTexts } from "../../texts/TextsContext";
@@ -17,7 +17,7 @@ export function PlanBar(): ReactNode {
   const heading = plan?.heading ?? null;
   const isOld = heading !== null && !heading.current;
   const put = (content: Record<string, unknown>): void => {
-    void change((by) => answered(server.PUT("/api/plan", { body: { ...by, plan: content } })));
+    void change((by) => putPlan({ body: { ...by, plan: content } }));
   };
   return (
     <div className="plan-bar">

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import { answered, server } from "../../rest/client";
+import { getCt } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -35,7 +35,7 @@ function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
   const texts = useTexts().plan;
   const ct = useQuery(async (signal) => {
     const isThere = await hasDocument(caseId, "ct", signal);
-    return isThere ? answered(server.GET("/api/ct", { signal })) : "none";
+    return isThere ? getCt({ signal }) : "none";
   });
   if (ct.data === "none") {
     return (

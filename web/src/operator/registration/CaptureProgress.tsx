@@ -2,14 +2,14 @@ import { Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { formatNumber } from "../../live/rounding";
 import { Rejection } from "../../rest/client";
-import type { components } from "../../schema";
+import type { CaptureMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
 import { captureText } from "./captureText";
 import { RegistrationRejection } from "./RegistrationRejection";
 
 interface CaptureProgressProps {
-  capture: components["schemas"]["CaptureMessage"];
+  capture: CaptureMessage;
   maxSpreadMm: number;
 }
 

@@ -1,7 +1,7 @@
 import { Badge } from "@mantine/core";
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import { answered, server } from "../../rest/client";
+import { getRegistration, postCasesByCaseIdDocumentsByDocumentIdWithdrawal } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
@@ -32,7 +32,7 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
   const texts = all.registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
-  const query = useQuery((signal) => answered(server.GET("/api/registration", { signal })), {
+  const query = useQuery((signal) => getRegistration({ signal }), {
     key: documentId,
   });
   const withdrawing = useAction();
@@ -75,12 +75,10 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
               onConfirm={() => {
                 void withdrawing
                   .run(async () => {
-                    await answered(
-                      server.POST("/api/cases/{case_id}/documents/{document_id}/withdrawal", {
-                        params: { path: { case_id: caseId, document_id: heading.id } },
-                        body: { by: madeBy, reason: texts.now.withdrawReason },
-                      }),
-                    );
+                    await postCasesByCaseIdDocumentsByDocumentIdWithdrawal({
+                      path: { case_id: caseId, document_id: heading.id },
+                      body: { by: madeBy, reason: texts.now.withdrawReason },
+                    });
                   })
                   .then(() => {
                     query.refetch();

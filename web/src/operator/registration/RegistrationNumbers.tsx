@@ -1,11 +1,11 @@
 import type { ReactNode } from "react";
 import { formatNumber } from "../../live/rounding";
-import type { components } from "../../schema";
+import type { RegistrationMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
 import { Measure } from "./Measure";
 
-type Registration = components["schemas"]["RegistrationMessage"];
+type Registration = RegistrationMessage;
 
 interface RegistrationNumbersProps {
   method: Registration["method"];

@@ -1,13 +1,12 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useRehearsal, type Rehearsed } from "../../rest/useRehearsal";
-import type { components } from "../../schema";
+import { putRehearsal, type SceneRequest } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 
-type Scene = components["schemas"]["SceneRequest"]["scene"];
+type Scene = SceneRequest["scene"];
 
 const ASK_EVERY_MS = 400;
 
@@ -41,9 +40,7 @@ export function RehearsalStrip({ scenes, children }: RehearsalStripProps): React
             onClick={() => {
               void playing
                 .run(async () => {
-                  await answered(
-                    server.PUT("/api/rehearsal", { body: { scene, skill: null, events: data.events } }),
-                  );
+                  await putRehearsal({ body: { scene, skill: null, events: data.events } });
                 })
                 .then(refetch);
             }}

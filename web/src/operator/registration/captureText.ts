@@ -1,9 +1,9 @@
 import { formatNumber } from "../../live/rounding";
-import type { components } from "../../schema";
+import type { CaptureMessage } from "../../api";
 import type { RegistrationTexts } from "../../texts/registration/en";
 import { interpolate } from "../../texts/interpolate";
 
-type Capture = Pick<components["schemas"]["CaptureMessage"], "images" | "wanted" | "rate_hz" | "left_s">;
+type Capture = Pick<CaptureMessage, "images" | "wanted" | "rate_hz" | "left_s">;
 type CaptureTexts = Pick<RegistrationTexts["capture"], "looking" | "lookingAtRate">;
 
 /** Images of a running capture, and the remaining time at the camera's rate. */

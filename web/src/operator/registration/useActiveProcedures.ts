@@ -1,12 +1,11 @@
-import { answered, server } from "../../rest/client";
 import { useQuery, type QueryState } from "../../rest/useQuery";
-import type { components } from "../../schema";
+import { getRegistrationRunning, type RunningMessage } from "../../api";
 
 const ASK_EVERY_MS = 1500;
 
 /** Procedures begun here or on another tablet, and not concluded. */
-export function useActiveProcedures(): QueryState<components["schemas"]["RunningMessage"]> {
-  return useQuery((signal) => answered(server.GET("/api/registration/running", { signal })), {
+export function useActiveProcedures(): QueryState<RunningMessage> {
+  return useQuery((signal) => getRegistrationRunning({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
 }

@@ -1,6 +1,6 @@
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { getAlarmsLog } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { textIn } from "../../texts/text";
@@ -13,9 +13,7 @@ const MAX_LINES = 10_000;
 /** Summary of the alarm log: which, how often, first and last, acknowledged by whom. */
 export function Alarms(): ReactNode {
   const texts = useTexts();
-  const query = useQuery((signal) =>
-    answered(server.GET("/api/alarms/log", { signal, params: { query: { last: MAX_LINES } } })),
-  );
+  const query = useQuery((signal) => getAlarmsLog({ signal, query: { last: MAX_LINES } }));
   const { data } = query;
   const alarms = data === null ? [] : alarmsIn(data.lines);
   return (

@@ -2,17 +2,16 @@ import { Maker } from "../parts/Maker";
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { formatFigure } from "../../live/rounding";
-import { answered, server } from "../../rest/client";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
-import type { components } from "../../schema";
+import { getCasesByCaseIdDocumentsByDocumentId, type HeadingMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { formatTime } from "../parts/format";
 import { channelsIn } from "./plan";
 
 interface PlanReportProps {
   caseId: string;
-  heading: components["schemas"]["HeadingMessage"];
+  heading: HeadingMessage;
 }
 
 /** The planned channels with their screws. */
@@ -21,8 +20,8 @@ export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
   const texts = all.report;
   const query = useQuery(
     (signal) => {
-      const params = { path: { case_id: caseId, document_id: heading.id } };
-      return answered(server.GET("/api/cases/{case_id}/documents/{document_id}", { signal, params }));
+      const path = { case_id: caseId, document_id: heading.id };
+      return getCasesByCaseIdDocumentsByDocumentId({ signal, path });
     },
     { key: heading.id },
   );

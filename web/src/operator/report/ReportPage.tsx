@@ -1,7 +1,12 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import { answered, server } from "../../rest/client";
+import {
+  getCasesByCaseId,
+  getCasesByCaseIdDocuments,
+  getCasesByCaseIdDocumentsByDocumentId,
+  getProcedure,
+} from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -41,11 +46,11 @@ function Report({ caseId }: { caseId: string }): ReactNode {
   const texts = all.report;
   const query = useQuery(
     async (signal) => {
-      const params = { path: { case_id: caseId } };
+      const path = { case_id: caseId };
       const [storedCase, { documents }, procedure] = await Promise.all([
-        answered(server.GET("/api/cases/{case_id}", { signal, params })),
-        answered(server.GET("/api/cases/{case_id}/documents", { signal, params })),
-        answered(server.GET("/api/procedure", { signal })),
+        getCasesByCaseId({ signal, path }),
+        getCasesByCaseIdDocuments({ signal, path }),
+        getProcedure({ signal }),
       ]);
       const entries = recordOf(documents);
       const telling = entries.map((one) => one.last).filter(isTelling);
@@ -110,10 +115,8 @@ async function contentsOf(
   const contents = new Map<string, Record<string, unknown>>();
   // Sequential, since navigation has priority on the server.
   for (const { id } of documents) {
-    const params = { path: { case_id: caseId, document_id: id } };
-    const { content } = await answered(
-      server.GET("/api/cases/{case_id}/documents/{document_id}", { signal, params }),
-    );
+    const path = { case_id: caseId, document_id: id };
+    const { content } = await getCasesByCaseIdDocumentsByDocumentId({ signal, path });
     contents.set(id, content);
   }
   return contents;

@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { getSupervisionSignatures } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { SignatureLine } from "../../supervisor/SignatureLine";
@@ -9,7 +9,7 @@ import { Maker } from "../parts/Maker";
 /** Signatures of plan and registration, and who invited the signers. */
 export function SignaturesReport(): ReactNode {
   const texts = useTexts().supervisor.sign;
-  const query = useQuery((signal) => answered(server.GET("/api/supervision/signatures", { signal })));
+  const query = useQuery((signal) => getSupervisionSignatures({ signal }));
   const { data } = query;
   if (data === null) return <QueryStatus query={query} />;
   const there = data.signable.filter((one) => one.document_id !== null);

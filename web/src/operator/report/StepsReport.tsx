@@ -1,13 +1,13 @@
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
-import type { components } from "../../schema";
+import type { ProcedureMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { stateText } from "../stepTexts";
 import { formatTime, sentence } from "../parts/format";
 import { interpolate } from "../../texts/interpolate";
 
 interface StepsReportProps {
-  procedure: components["schemas"]["ProcedureMessage"];
+  procedure: ProcedureMessage;
   readAt: string;
 }
 

@@ -1,7 +1,7 @@
 // Documents of the case in the order they were made.
-import type { components } from "../../schema";
+import type { HeadingMessage } from "../../api";
 
-export type Heading = components["schemas"]["HeadingMessage"];
+export type Heading = HeadingMessage;
 
 /** One entry. Consecutive versions of a plan are merged, since each touch stores one. */
 export interface Entry {

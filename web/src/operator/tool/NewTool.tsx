@@ -1,7 +1,7 @@
 import { Button, Select, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
-import { answered, server } from "../../rest/client";
+import { getMarkers } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -21,7 +21,7 @@ export function NewTool({ first, usedNames, busy, onBegin }: NewToolProps): Reac
   const texts = useTexts().tool;
   const [typed, setTyped] = useState<string | null>(null);
   const [chosen, setChosen] = useState<string | null>(null);
-  const query = useQuery((signal) => answered(server.GET("/api/markers", { signal })), {
+  const query = useQuery((signal) => getMarkers({ signal }), {
     everyMs: 3000,
   });
   const { data } = query;

@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { deleteToolsCollection, getToolsCollection, postToolsCollectionConclusion } from "../../api";
 import { Rejection } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { QueryStatus } from "../../rest/QueryStatus";
@@ -30,14 +30,14 @@ export function PoseCollection({ tools, gate, onOver }: PoseCollectionProps): Re
   const madeBy = useMaker();
   const doing = useAction();
   const [shape, setShape] = useState<ShapeMm>({ diameterMm: "", lengthMm: "" });
-  const query = useQuery((signal) => answered(server.GET("/api/tools/collection", { signal })), {
+  const query = useQuery((signal) => getToolsCollection({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const { data } = query;
   const end = (): void => {
     void doing
       .run(async () => {
-        await answered(server.DELETE("/api/tools/collection"));
+        await deleteToolsCollection();
       })
       .then(() => {
         onOver(null);
@@ -53,9 +53,7 @@ export function PoseCollection({ tools, gate, onOver }: PoseCollectionProps): Re
     const size = needsShape && given ? { radius_mm: given.diameterMm / 2, length_mm: given.lengthMm } : {};
     void doing
       .run(async () => {
-        await answered(
-          server.POST("/api/tools/collection/conclusion", { body: { made_by: madeBy, ...size } }),
-        );
+        await postToolsCollectionConclusion({ body: { made_by: madeBy, ...size } });
       })
       .then((done) => {
         if (done) onOver(data.tool);

@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import type { components } from "../../schema";
+import type { HeadingMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
@@ -21,7 +21,7 @@ const PURPOSES: readonly Purpose[] = ["pivot", "spin", "tip_check"];
 interface ToolCardProps {
   tool: KnownTool;
   gate: ToolGate;
-  documents: readonly components["schemas"]["HeadingMessage"][] | null;
+  documents: readonly HeadingMessage[] | null;
   busy: boolean;
   /** Identifies a tool of which something was just saved here. */
   fresh: string | null;

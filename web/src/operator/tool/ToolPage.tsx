@@ -1,6 +1,6 @@
 import { useState, type ReactNode } from "react";
 import { VideoPane } from "../../panes/VideoPane";
-import { answered, server } from "../../rest/client";
+import { getTools, postToolsCollection } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
@@ -22,7 +22,7 @@ export function ToolPage(): ReactNode {
   const procedure = useProcedure();
   const gates = useGates();
   const documents = useDocuments();
-  const query = useQuery((signal) => answered(server.GET("/api/tools", { signal })), {
+  const query = useQuery((signal) => getTools({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const { data, refetch } = query;
@@ -31,7 +31,7 @@ export function ToolPage(): ReactNode {
   const begin = (tool: string, purpose: Purpose, marker: string | null): void => {
     void beginning
       .run(async () => {
-        await answered(server.POST("/api/tools/collection", { body: { tool, purpose, marker } }));
+        await postToolsCollection({ body: { tool, purpose, marker } });
       })
       .then(refetch);
   };

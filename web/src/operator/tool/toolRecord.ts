@@ -1,10 +1,10 @@
 // Parses a tool document; its content is not trusted.
-import type { components } from "../../schema";
+import type { KnownToolMessage, PoseCollectionMessage, Purpose, ToolCalibrationConfig } from "../../api";
 
-export type KnownTool = components["schemas"]["KnownToolMessage"];
-export type ToolGate = components["schemas"]["ToolCalibrationConfig"];
-export type PoseCollectionState = components["schemas"]["PoseCollectionMessage"];
-export type Purpose = components["schemas"]["Purpose"];
+export type { Purpose };
+export type KnownTool = KnownToolMessage;
+export type ToolGate = ToolCalibrationConfig;
+export type PoseCollectionState = PoseCollectionMessage;
 
 interface ToolRecord {
   marker: string;

@@ -1,6 +1,6 @@
 import { Button, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { postRecordingsByNameComments } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { interpolate } from "../../texts/interpolate";
@@ -22,10 +22,8 @@ export function CommentForm({ name, atS, onWritten }: CommentFormProps): ReactNo
   const doing = useAction();
   const write = async (): Promise<void> => {
     const isWritten = await doing.run(async () => {
-      const params = { path: { name } };
-      await answered(
-        server.POST("/api/recordings/{name}/comments", { params, body: { at_s: atS, text: text.trim() } }),
-      );
+      const path = { name };
+      await postRecordingsByNameComments({ path, body: { at_s: atS, text: text.trim() } });
     });
     if (!isWritten) return;
     setText("");

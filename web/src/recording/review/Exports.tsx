@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useEffect, useEffectEvent, useState, type ReactNode } from "react";
 import { formatBytes } from "../../operator/parts/format";
-import { answered, server } from "../../rest/client";
+import { getRecordingsByNameExports, postRecordingsByNameCut, postRecordingsByNameVideo } from "../../api";
 import { JobProgress } from "../../rest/JobProgress";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
@@ -28,10 +28,9 @@ export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps):
   const [made, setMade] = useState<RecordingExport | null>(null);
   const doing = useAction();
   const path = { name };
-  const { data, rejection, refetch } = useQuery(
-    (signal) => answered(server.GET("/api/recordings/{name}/exports", { params: { path }, signal })),
-    { key: name },
-  );
+  const { data, rejection, refetch } = useQuery((signal) => getRecordingsByNameExports({ path, signal }), {
+    key: name,
+  });
   const { follow, ...followed } = useJob((job) => {
     setMade(exportOf(job));
     refetch();
@@ -53,20 +52,10 @@ export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps):
     });
   };
   const cut = start(() =>
-    answered(
-      server.POST("/api/recordings/{name}/cut", {
-        params: { path },
-        body: { from_s: piece?.fromS ?? 0, to_s: piece?.toS ?? durationS },
-      }),
-    ),
+    postRecordingsByNameCut({ path, body: { from_s: piece?.fromS ?? 0, to_s: piece?.toS ?? durationS } }),
   );
   const film = start(() =>
-    answered(
-      server.POST("/api/recordings/{name}/video", {
-        params: { path },
-        body: { language: texts.language === "de" ? "de" : "en" },
-      }),
-    ),
+    postRecordingsByNameVideo({ path, body: { language: texts.language === "de" ? "de" : "en" } }),
   );
   return (
     <section className="review-exports" aria-label={own.title}>

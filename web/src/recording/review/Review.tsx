@@ -1,5 +1,5 @@
 import { useEffect, useEffectEvent, useState, type ReactNode } from "react";
-import { answered, server } from "../../rest/client";
+import { getRecordingsByNameTimeline } from "../../api";
 import { JobProgress } from "../../rest/JobProgress";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useJob } from "../../rest/useJob";
@@ -23,15 +23,11 @@ export function Review({ name, mayExport }: { name: string; mayExport: boolean }
   const [span, setSpan] = useState<Span | null>(null);
   const query = useQuery(
     (signal) =>
-      answered(
-        server.GET("/api/recordings/{name}/timeline", {
-          params: {
-            path: { name },
-            query: { samples: MAX_SAMPLES, ...(span === null ? {} : { from_s: span.fromS, to_s: span.toS }) },
-          },
-          signal,
-        }),
-      ),
+      getRecordingsByNameTimeline({
+        path: { name },
+        query: { samples: MAX_SAMPLES, ...(span === null ? {} : { from_s: span.fromS, to_s: span.toS }) },
+        signal,
+      }),
     { key: `${name} ${span?.fromS ?? ""} ${span?.toS ?? ""}` },
   );
   const { data, refetch } = query;

@@ -1,11 +1,11 @@
 // Timeline data of a recording for the curves and the cursor. Pure.
 import type { Status } from "../../live/messages";
 import { FIGURES, type FigureName } from "../../panes/limits";
-import type { components } from "../../schema";
+import type { TimelineMessage } from "../../api";
 import { MAX_STEP_MS, type Sample, type TrendFigure } from "../../trend/history";
 import type { Span } from "./span";
 
-export type Timeline = components["schemas"]["TimelineMessage"];
+export type Timeline = TimelineMessage;
 export type Curves = Timeline["curves"];
 export type RecordedEvent = Timeline["events"][number];
 

@@ -1,9 +1,9 @@
 // An image of a recording with its results. They change together, so an image never appears with other figures.
 import { useEffect, useState } from "react";
-import { answered, Rejection, server } from "../../rest/client";
-import type { components } from "../../schema";
+import { Rejection } from "../../rest/client";
+import { getRecordingsByNameInstantsByNumber, type RecordedInstantMessage } from "../../api";
 
-export type RecordedInstant = components["schemas"]["RecordedInstantMessage"];
+export type RecordedInstant = RecordedInstantMessage;
 
 export interface ShownInstant {
   instant: RecordedInstant | null;
@@ -23,7 +23,7 @@ export function useShownInstant(name: string, number: number): { shown: ShownIns
   useEffect(() => {
     const stop = new AbortController();
     const load = async (): Promise<void> => {
-      const params = { path: { name, number } };
+      const path = { name, number };
       const source = `/api/recordings/${name}/images/${number}.jpg`;
       const image = new Image();
       image.src = source;
@@ -32,9 +32,7 @@ export function useShownInstant(name: string, number: number): { shown: ShownIns
         () => null,
       );
       try {
-        const instant = await answered(
-          server.GET("/api/recordings/{name}/instants/{number}", { params, signal: stop.signal }),
-        );
+        const instant = await getRecordingsByNameInstantsByNumber({ path, signal: stop.signal });
         const decoded = await decoding;
         if (!stop.signal.aborted) setShown({ instant, source: decoded, rejection: null, number });
       } catch (error) {

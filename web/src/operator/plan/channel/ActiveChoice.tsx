@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
-import { answered, server } from "../../../rest/client";
+import { deletePlanActiveChannel, postPlanActiveChannel } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 import type { PlannedChannel } from "../state/shape";
@@ -26,8 +26,8 @@ export function ActiveChoice({
   const choose = (): void => {
     void change(() =>
       isActive
-        ? answered(server.DELETE("/api/plan/active-channel", { params: { query: { made_by } } }))
-        : answered(server.POST("/api/plan/active-channel", { body: { made_by, vertebra, side } })),
+        ? deletePlanActiveChannel({ query: { made_by } })
+        : postPlanActiveChannel({ body: { made_by, vertebra, side } }),
     );
   };
   return (

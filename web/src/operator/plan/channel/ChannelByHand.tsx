@@ -1,7 +1,7 @@
 import { Button, SegmentedControl } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
-import { answered, server } from "../../../rest/client";
+import { putPlanVertebraeByNameChannelsBySide } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { ArrowPad } from "../slices/ArrowPad";
 import { downOf, normalOf, rightOf } from "../slices/place";
@@ -48,18 +48,18 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
   const keep = (): void => {
     if (vertebra === null) return;
     const path = { name: vertebra.name, side };
-    const by_hand = {
-      entry_lps_mm: [...draft.entry],
-      target_lps_mm: [...draft.target],
-      diameter_mm: draft.diameterMm,
-    };
     void change((by) =>
-      answered(
-        server.PUT("/api/plan/vertebrae/{name}/channels/{side}", {
-          params: { path },
-          body: { ...by, by_hand },
-        }),
-      ),
+      putPlanVertebraeByNameChannelsBySide({
+        path,
+        body: {
+          ...by,
+          by_hand: {
+            entry_lps_mm: [...draft.entry],
+            target_lps_mm: [...draft.target],
+            diameter_mm: draft.diameterMm,
+          },
+        },
+      }),
     ).then((made) => {
       if (made) setDraft(null);
     });

@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { deletePlanVertebraeByNameChannelsBySide, putPlanVertebraeByNameChannelsBySide } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { SetupCheckNote } from "../../SetupCheckNote";
 import { SideChooser } from "../pedicle/SideChooser";
@@ -28,16 +28,12 @@ export function ChannelPart(): ReactNode {
   const isMeasured = recordOf(vertebra, side) !== null;
   const path = { name, side };
   const layAlongPedicle = (): void => {
-    void change((by) =>
-      answered(server.PUT("/api/plan/vertebrae/{name}/channels/{side}", { params: { path }, body: by })),
-    ).then((made) => {
+    void change((by) => putPlanVertebraeByNameChannelsBySide({ path, body: by })).then((made) => {
       if (made) setDraft(null);
     });
   };
   const remove = (): void => {
-    void change((by) =>
-      answered(server.DELETE("/api/plan/vertebrae/{name}/channels/{side}", { params: { path, query: by } })),
-    );
+    void change((by) => deletePlanVertebraeByNameChannelsBySide({ path, query: by }));
   };
   const moved = draft?.of === of ? draft.channel : null;
   const beginAt = (): void => {

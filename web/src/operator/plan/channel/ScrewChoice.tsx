@@ -1,6 +1,10 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import {
+  deletePlanVertebraeByNameChannelsBySideScrew,
+  getPlanCatalogue,
+  putPlanVertebraeByNameChannelsBySideScrew,
+} from "../../../api";
 import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
@@ -19,25 +23,16 @@ interface ScrewChoiceProps {
 export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps): ReactNode {
   const texts = useTexts().plan.screw;
   const { change, busy } = usePlanning();
-  const catalogue = useQuery((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
+  const catalogue = useQuery((signal) => getPlanCatalogue({ signal })).data;
   const path = { name: vertebra, side: planned.side };
   const screw = planned.screws[0] ?? null;
   const choose = (size: { diameter_mm: number; length_mm: number } | null): void => {
     void change((by) =>
-      answered(
-        server.PUT("/api/plan/vertebrae/{name}/channels/{side}/screw", {
-          params: { path },
-          body: { ...by, ...(size ?? {}) },
-        }),
-      ),
+      putPlanVertebraeByNameChannelsBySideScrew({ path, body: { ...by, ...(size ?? {}) } }),
     );
   };
   const remove = (): void => {
-    void change((by) =>
-      answered(
-        server.DELETE("/api/plan/vertebrae/{name}/channels/{side}/screw", { params: { path, query: by } }),
-      ),
-    );
+    void change((by) => deletePlanVertebraeByNameChannelsBySideScrew({ path, query: by }));
   };
   if (!isMeasured) return <p className="soft">{texts.notMeasured}</p>;
   return (

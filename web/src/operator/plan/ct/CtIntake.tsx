@@ -1,6 +1,6 @@
 import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { postCtUploadsByUploadIdSeriesBySeries } from "../../../api";
 import { JobProgress } from "../../../rest/JobProgress";
 import { useRehearsal } from "../../../rest/useRehearsal";
 import { useAction } from "../../../rest/useAction";
@@ -44,9 +44,7 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
   const choose = (one: string): void => {
     void choosing.run(async () => {
       const path = { upload_id: uploadId, series: one };
-      job.follow(
-        await answered(server.POST("/api/ct/uploads/{upload_id}/series/{series}", { params: { path } })),
-      );
+      job.follow(await postCtUploadsByUploadIdSeriesBySeries({ path }));
     });
   };
 

@@ -1,6 +1,7 @@
 import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, Rejection, server } from "../../../rest/client";
+import { postPlanImport } from "../../../api";
+import { Rejection } from "../../../rest/client";
 import { useTexts } from "../../../texts/TextsContext";
 import { FileButtons } from "../ct/FileButtons";
 import { usePlanning } from "../state/PlanContext";
@@ -15,14 +16,8 @@ export function FilePart(): ReactNode {
   const read = (text: string, forOtherCt: boolean): void => {
     void change((by) => {
       const query = { ...by, for_other_ct: forOtherCt };
-      return answered(
-        server.POST("/api/plan/import", {
-          params: { query },
-          body: text as never,
-          bodySerializer: (body: unknown) => body as string,
-          headers: { "Content-Type": "application/json" },
-        }),
-      );
+      // The text is JSON already.
+      return postPlanImport({ query, body: text, bodySerializer: null });
     });
   };
   return (

@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { getPlanCatalogue, type LandmarkMessage, putPlanVertebraeByNameLandmarks } from "../../../api";
 import { useQuery } from "../../../rest/useQuery";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
@@ -18,19 +18,17 @@ export function LandmarksPart(): ReactNode {
   const texts = useTexts().plan.landmarks;
   const { vertebra, change, busy } = usePlanning();
   const { look, goTo } = useSlices();
-  const catalogue = useQuery((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
+  const catalogue = useQuery((signal) => getPlanCatalogue({ signal })).data;
   const [isNaming, setNaming] = useState(false);
   if (vertebra === null) return <p>{texts.noVertebra}</p>;
   const { name, landmarks } = vertebra;
   const put = (next: readonly Landmark[]): void => {
-    const body = next.map((one) => ({ name: one.name, point_lps_mm: [...one.point_lps_mm] }));
+    const body = next.map((one): LandmarkMessage => ({
+      name: one.name,
+      point_lps_mm: [...one.point_lps_mm],
+    }));
     void change((by) =>
-      answered(
-        server.PUT("/api/plan/vertebrae/{name}/landmarks", {
-          params: { path: { name } },
-          body: { ...by, landmarks: body },
-        }),
-      ),
+      putPlanVertebraeByNameLandmarks({ path: { name }, body: { ...by, landmarks: body } }),
     );
   };
   const minLandmarks = catalogue?.min_landmarks ?? null;

@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { getRehearsal } from "../../../api";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { useRehearsal } from "../../../rest/useRehearsal";
 import { useAction } from "../../../rest/useAction";
@@ -22,7 +22,7 @@ export function RehearsedLandmarks({
   if (query.data === null) return null;
   const take = (): void => {
     void action.run(async () => {
-      const rehearsal = await answered(server.GET("/api/rehearsal", { params: { query: { truth: true } } }));
+      const rehearsal = await getRehearsal({ query: { truth: true } });
       if (rehearsal.truth === null) return;
       const all = [...rehearsal.truth.landmarks, rehearsal.truth.check_landmark];
       onTake(all.map((one) => ({ name: one.name, point_lps_mm: vec3(one.point_lps_mm) ?? [0, 0, 0] })));

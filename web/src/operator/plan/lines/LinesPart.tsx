@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
-import { answered, server } from "../../../rest/client";
+import { getPlanProposalsSlice, putPlanVertebraeByNameReference } from "../../../api";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
@@ -34,25 +34,19 @@ export function LinesPart(): ReactNode {
   const showProposal = (): void => {
     void action.run(async () => {
       const query = { vertebra: name };
-      const proposed = await answered(server.GET("/api/plan/proposals/slice", { params: { query } }));
+      const proposed = await getPlanProposalsSlice({ query });
       const middle = vec3(proposed.middle_lps_mm) ?? look.cursor;
       setPlane("axial");
       goTo([middle[0], middle[1], proposed.at_mm]);
     });
   };
   const lay = (): void => {
-    const body = {
-      slice_index: sliceIndexAt(ct, look.cursor),
-      middle_lps_mm: [...look.cursor],
-      apart_mm: apartMm,
-    };
+    const slice_index = sliceIndexAt(ct, look.cursor);
     void change((by) =>
-      answered(
-        server.PUT("/api/plan/vertebrae/{name}/reference", {
-          params: { path: { name } },
-          body: { ...by, ...body },
-        }),
-      ),
+      putPlanVertebraeByNameReference({
+        path: { name },
+        body: { ...by, slice_index, middle_lps_mm: [...look.cursor], apart_mm: apartMm },
+      }),
     ).then(setLaidHere);
   };
   return (

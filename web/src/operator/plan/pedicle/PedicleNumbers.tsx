@@ -1,7 +1,7 @@
 import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
-import { answered, server } from "../../../rest/client";
+import { putPlanVertebraeByNamePediclesBySideCorrections } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { useSlices } from "../slices/SlicesContext";
 import { usePlanning } from "../state/PlanContext";
@@ -21,12 +21,7 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
   const path = { name: vertebra, side: measured.side };
   const keep = (numbers: Partial<Numbers>): void => {
     void change((by) =>
-      answered(
-        server.PUT("/api/plan/vertebrae/{name}/pedicles/{side}/corrections", {
-          params: { path },
-          body: { ...by, corrected: numbers },
-        }),
-      ),
+      putPlanVertebraeByNamePediclesBySideCorrections({ path, body: { ...by, corrected: numbers } }),
     );
   };
   const now = draft ?? corrected;

@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useRef, useState, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { postPlanVertebraeByNamePediclesBySide, putPlanVertebraeByNameChannelsBySide } from "../../../api";
 import { JobProgress } from "../../../rest/JobProgress";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { useAction } from "../../../rest/useAction";
@@ -49,22 +49,17 @@ export function PediclePart(): ReactNode {
   const measure = (): void => {
     documentBefore.current = plan?.heading.id ?? null;
     void action.run(async () => {
-      const body = { ...by, seed_lps_mm: [...look.cursor] };
       job.follow(
-        await answered(
-          server.POST("/api/plan/vertebrae/{name}/pedicles/{side}", {
-            params: { path: { name, side } },
-            body,
-          }),
-        ),
+        await postPlanVertebraeByNamePediclesBySide({
+          path: { name, side },
+          body: { ...by, seed_lps_mm: [...look.cursor] },
+        }),
       );
     });
   };
   const layChannel = (): void => {
     const path = { name, side };
-    void change((on) =>
-      answered(server.PUT("/api/plan/vertebrae/{name}/channels/{side}", { params: { path }, body: on })),
-    ).then((made) => {
+    void change((on) => putPlanVertebraeByNameChannelsBySide({ path, body: on })).then((made) => {
       if (made) setPart("channel");
     });
   };

@@ -1,6 +1,6 @@
 import { Button, Modal } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { postPlanVertebrae } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 
@@ -15,11 +15,9 @@ export function VertebraChooser(): ReactNode {
   const [isAdding, setAdding] = useState(false);
   const add = (name: string): void => {
     setAdding(false);
-    void change((by) => answered(server.POST("/api/plan/vertebrae", { body: { ...by, name } }))).then(
-      (made) => {
-        if (made) setVertebra(name);
-      },
-    );
+    void change((by) => postPlanVertebrae({ body: { ...by, name } })).then((made) => {
+      if (made) setVertebra(name);
+    });
   };
   return (
     <div className="vertebrae" role="group" aria-label={texts.title}>

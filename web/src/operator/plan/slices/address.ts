@@ -1,11 +1,11 @@
 // Address of a slice picture on the server, which also identifies it.
-import type { components } from "../../../schema";
+import type { CtMessage, WindowMessage } from "../../../api";
 import { minus, unit, dot, type Vec3 } from "./vectors";
 
-export type Ct = components["schemas"]["CtMessage"];
+export type Ct = CtMessage;
 type Flat = "axial" | "sagittal" | "coronal";
 export type PlaneName = Flat | "along" | "across";
-export type Greys = components["schemas"]["WindowMessage"];
+export type Greys = WindowMessage;
 
 export const FLAT: readonly Flat[] = ["axial", "sagittal", "coronal"];
 const AXIS: Record<Flat, 0 | 1 | 2> = { sagittal: 0, coronal: 1, axial: 2 };

@@ -2,10 +2,10 @@
 //
 // Three coordinates of one point: LPS in mm; (u, v) in pixels, with (0, 0) at the centre of the top-left pixel; and
 // (x, y) in mm on the slice's plane (u and v times the spacing of columns and rows), in which drawings are made.
-import type { components } from "../../../schema";
+import type { SliceMessage } from "../../../api";
 import { cross, dot, minus, plus, times, unit, type Vec3 } from "./vectors";
 
-export type Place = components["schemas"]["SliceMessage"];
+export type Place = SliceMessage;
 /** Placement of a picture's pixels: all that drawing needs. */
 export type PixelGrid = Pick<Place, "lps_from_px" | "pixel_mm" | "width_px" | "height_px">;
 export type Vec2 = readonly [number, number];

@@ -1,6 +1,7 @@
 // The plan: one change at a time, with undo.
 import { createContext, use, useCallback, useState, type ReactNode } from "react";
-import { answered, Rejection, server } from "../../../rest/client";
+import { getCasesByCaseIdDocumentsByDocumentId, putPlan } from "../../../api";
+import { Rejection } from "../../../rest/client";
 import { useAction } from "../../../rest/useAction";
 import { useMadeBy } from "./madeBy";
 import { vertebraeOf, type PlanAnswer, type Side, type Vertebra } from "./shape";
@@ -88,7 +89,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
     if (step === null) return;
     void run(async () => {
       const before = await contentOf(caseId, step.documentId, plan);
-      return answered(server.PUT("/api/plan", { body: { ...by, plan: before } }));
+      return putPlan({ body: { ...by, plan: before } });
     }).then((made) => {
       if (made !== null) storeView(withoutLast(steps, made.heading.version));
     });
@@ -133,9 +134,7 @@ async function contentOf(
 ): Promise<Record<string, unknown>> {
   if (documentId === null) return { format_version: plan?.plan["format_version"], vertebrae: [] };
   const path = { case_id: caseId, document_id: documentId };
-  const document = await answered(
-    server.GET("/api/cases/{case_id}/documents/{document_id}", { params: { path } }),
-  );
+  const document = await getCasesByCaseIdDocumentsByDocumentId({ path });
   return document.content;
 }
 

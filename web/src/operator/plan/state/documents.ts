@@ -1,8 +1,7 @@
 // Documents of a case. Existence is checked first, so that a missing document is no error.
-import { answered, server } from "../../../rest/client";
-import type { components } from "../../../schema";
+import { type DocumentKind, getCasesByCaseIdDocuments } from "../../../api";
 
-type Kind = components["schemas"]["DocumentKind"];
+type Kind = DocumentKind;
 
 /** Name of the case's only CT, plan or surface. */
 const MAIN = "main";
@@ -13,12 +12,10 @@ const MAIN = "main";
  * @throws Rejection
  */
 export async function hasDocument(caseId: string, kind: Kind, signal?: AbortSignal): Promise<boolean> {
-  const { documents } = await answered(
-    server.GET("/api/cases/{case_id}/documents", {
-      params: { path: { case_id: caseId } },
-      ...(signal === undefined ? {} : { signal }),
-    }),
-  );
+  const { documents } = await getCasesByCaseIdDocuments({
+    path: { case_id: caseId },
+    ...(signal === undefined ? {} : { signal }),
+  });
   const versions = documents.filter((one) => one.kind === kind && one.name === MAIN);
   return versions.length > 0 && versions.at(-1)?.withdrawn === null;
 }

@@ -1,8 +1,8 @@
 // Type of the plan in `GET /api/plan`, which the server's schema describes only as an object.
-import type { components } from "../../../schema";
+import type { PlanMessage } from "../../../api";
 import type { Vec3 } from "../slices/vectors";
 
-export type PlanAnswer = components["schemas"]["PlanMessage"];
+export type PlanAnswer = PlanMessage;
 export type Side = "left" | "right";
 export const SIDES: readonly Side[] = ["left", "right"];
 

@@ -1,6 +1,7 @@
 // The newest plan, polled every few seconds, because two tablets may plan at once.
 import { useCallback, useEffect, useRef, useState } from "react";
-import { answered, Rejection, server } from "../../../rest/client";
+import { getPlan } from "../../../api";
+import { Rejection } from "../../../rest/client";
 import { hasDocument } from "./documents";
 import type { PlanAnswer } from "./shape";
 
@@ -55,7 +56,7 @@ async function fetchPlan(caseId: string, wasThere: boolean): Promise<Known> {
   try {
     if (!wasThere && !(await hasDocument(caseId, "plan")))
       return { plan: null, rejection: null, isLoading: false };
-    return { plan: await answered(server.GET("/api/plan")), rejection: null, isLoading: false };
+    return { plan: await getPlan(), rejection: null, isLoading: false };
   } catch (error) {
     if (!(error instanceof Rejection)) throw error;
     const isNone = error.problem.code === "PLAN_MISSING";

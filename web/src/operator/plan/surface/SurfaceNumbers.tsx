@@ -1,11 +1,11 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
-import type { components } from "../../../schema";
+import type { DocumentMessage } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { vec3 } from "../slices/vectors";
 
-type Surface = components["schemas"]["DocumentMessage"];
+type Surface = DocumentMessage;
 
 interface Remark {
   message: string;

@@ -1,7 +1,7 @@
 import { Alert, Button, NativeSelect } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
-import { answered, server } from "../../../rest/client";
+import { getSurface, postSurfaceFromCt } from "../../../api";
 import { JobProgress } from "../../../rest/JobProgress";
 import { RejectionNote } from "../../../rest/RejectionNote";
 import { QueryStatus } from "../../../rest/QueryStatus";
@@ -29,7 +29,7 @@ export function SurfacePart(): ReactNode {
   const { refreshSurfaces } = useWork();
   const surface = useQuery(async (signal) => {
     const isThere = await hasDocument(caseId, "surface", signal);
-    return isThere ? answered(server.GET("/api/surface", { signal })) : "none";
+    return isThere ? getSurface({ signal }) : "none";
   });
   const action = useAction();
   const job = useJob((ended) => {
@@ -45,11 +45,9 @@ export function SurfacePart(): ReactNode {
   const make = (): void => {
     void action.run(async () => {
       job.follow(
-        await answered(
-          server.POST("/api/surface/from-ct", {
-            body: { made_by: madeBy, largest_part_only: true, smoothing_rounds: 10, max_faces: 60_000 },
-          }),
-        ),
+        await postSurfaceFromCt({
+          body: { made_by: madeBy, largest_part_only: true, smoothing_rounds: 10, max_faces: 60_000 },
+        }),
       );
     });
   };

@@ -1,4 +1,5 @@
-import { answered, NO_ANSWER, Rejection, server } from "../../../rest/client";
+import { getSurface } from "../../../api";
+import { NO_ANSWER, Rejection } from "../../../rest/client";
 import { useQuery } from "../../../rest/useQuery";
 import { hasDocument } from "../state/documents";
 import { trianglesOf, type Triangles } from "./triangles";
@@ -11,7 +12,7 @@ export function useTriangles(caseId: string, surfacesMade: number): Triangles | 
   return useQuery(
     async (signal) => {
       if (!(await hasDocument(caseId, "surface", signal))) return null;
-      const { heading } = await answered(server.GET("/api/surface", { signal }));
+      const { heading } = await getSurface({ signal });
       if (cache?.id !== heading.id) cache = { id: heading.id, triangles: fetched() };
       return cache.triangles;
     },

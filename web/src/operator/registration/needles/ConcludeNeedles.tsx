@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useLocation } from "wouter";
-import { answered, server } from "../../../rest/client";
+import { postRegistrationNeedlesConclusion } from "../../../api";
 import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
@@ -15,8 +15,8 @@ interface ConcludeNeedlesProps {
   order: NeedleRequest;
   overlay?: Overlay | null;
   marked?: readonly {
-    entry_px: number[];
-    head_px: number[];
+    entry_px: [number, number];
+    head_px: [number, number];
     entry_is_seen?: boolean;
     along_sd_px?: number;
   }[];
@@ -70,11 +70,9 @@ export function ConcludeNeedles({
           void doing
             .run(async () => {
               const needles = marked.map((one) => ({ entry_is_seen: true, along_sd_px: 1, ...one }));
-              await answered(
-                server.POST("/api/registration/needles/conclusion", {
-                  body: { ...needleRequestBody(order), overlay, marked: needles, picked, made_by: madeBy },
-                }),
-              );
+              await postRegistrationNeedlesConclusion({
+                body: { ...needleRequestBody(order), overlay, marked: needles, picked, made_by: madeBy },
+              });
             })
             .then((done) => {
               procedure.refetch();

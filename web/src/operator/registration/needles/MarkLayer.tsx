@@ -31,7 +31,7 @@ export function MarkLayer({ marks, names, lines = [] }: MarkLayerProps): ReactNo
           points={line.map((one) => one.join(",")).join(" ")}
         />
       ))}
-      {marks.map(({ entry_px: [x = 0, y = 0], head_px: head }, index) => (
+      {marks.map(({ entry_px: [x, y], head_px: head }, index) => (
         <g key={names[index] ?? index} data-needle={index}>
           {head !== undefined && (
             <>

@@ -64,7 +64,7 @@ export function MarkPanel({
   const at = chosen === null ? null : (marks[chosen.needle]?.[chosen.end] ?? null);
   const nudge = ([x, y]: Px): void => {
     if (chosen === null || at === null) return;
-    onMarks(withEnd(marks, chosen, [(at[0] ?? 0) + x, (at[1] ?? 0) + y]));
+    onMarks(withEnd(marks, chosen, [at[0] + x, at[1] + y]));
   };
   return (
     <section className="card">

@@ -1,5 +1,5 @@
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { getPlan } from "../../../api";
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
@@ -16,7 +16,7 @@ import type { NeedleRequest } from "./order";
 export function NeedlesPage(): ReactNode {
   const texts = useTexts().registration.needles;
   const caseId = useCaseId() ?? "";
-  const plan = useQuery((signal) => answered(server.GET("/api/plan", { signal })));
+  const plan = useQuery((signal) => getPlan({ signal }));
   const known = storedView(caseId);
   const [view, setView] = useState(known ?? FIRST_VIEW);
   const [measured, setMeasured] = useState(known !== null);

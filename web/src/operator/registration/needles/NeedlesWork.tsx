@@ -1,6 +1,6 @@
 import { Button, SegmentedControl } from "@mantine/core";
 import { useEffect, useRef, useState, useSyncExternalStore, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { postRegistrationNeedlesOverlay } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { interpolate } from "../../../texts/interpolate";
 import type { PlannedVertebra } from "../planReader";
@@ -33,11 +33,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
   const [controller] = useState(
     () =>
       new OverlayController((overlay) =>
-        answered(
-          server.POST("/api/registration/needles/overlay", {
-            body: { ...needleRequestBody(order), overlay, marked: [] },
-          }),
-        ),
+        postRegistrationNeedlesOverlay({ body: { ...needleRequestBody(order), overlay, marked: [] } }),
       ),
   );
   const state = useSyncExternalStore(controller.subscribe, controller.state);

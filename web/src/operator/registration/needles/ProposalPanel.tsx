@@ -1,8 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
 import { useAction } from "../../../rest/useAction";
-import type { components } from "../../../schema";
+import { postRegistrationNeedlesProposal, type ProposalMessage } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { ConcludeNeedles } from "./ConcludeNeedles";
@@ -10,7 +9,7 @@ import type { NeedleRequest } from "./order";
 import { needleRequestBody } from "./order";
 import { ProposalCard } from "./ProposalCard";
 
-export type Proposal = components["schemas"]["ProposalMessage"];
+export type Proposal = ProposalMessage;
 
 interface ProposalPanelProps {
   order: NeedleRequest;
@@ -36,9 +35,7 @@ export function ProposalPanel({ order, picked, isFrozen, onPick, onAdjust }: Pro
           onPick(null);
           setProposals(null);
           void finding.run(async () => {
-            const rehearsal = await answered(
-              server.POST("/api/registration/needles/proposal", { body: needleRequestBody(order) }),
-            );
+            const rehearsal = await postRegistrationNeedlesProposal({ body: needleRequestBody(order) });
             setProposals(rehearsal.proposals);
           });
         }}

@@ -2,8 +2,8 @@
 import type { Px } from "./overlay";
 
 export interface Mark {
-  entry_px: number[];
-  head_px: number[];
+  entry_px: [number, number];
+  head_px: [number, number];
 }
 
 /** An end of a needle. */
@@ -13,7 +13,7 @@ export interface End {
 }
 
 /** Marks; the last needle may have only its first end. */
-export type Marking = Partial<Mark> & { entry_px: number[] };
+export type Marking = Partial<Mark> & Pick<Mark, "entry_px">;
 
 /** The next end to mark; null when all needles are complete. */
 export function nextEnd(marks: readonly Mark[], open: number[] | null, needles: number): End | null {
@@ -30,7 +30,7 @@ export function endNear(marks: readonly Mark[], [x, y]: Px, withinPx: number): E
   let [best, nearest]: [End | null, number] = [null, withinPx];
   marks.forEach((mark, needle) => {
     for (const end of ["entry_px", "head_px"] as const) {
-      const [endX = 0, endY = 0] = mark[end];
+      const [endX, endY] = mark[end];
       const far = Math.hypot(endX - x, endY - y);
       if (far <= nearest) [best, nearest] = [{ needle, end }, far];
     }

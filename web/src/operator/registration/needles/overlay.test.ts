@@ -64,7 +64,7 @@ describe("what is drawn between two answers", () => {
   test.each(HANDS)("has a point a millimetre away as far and as turned as the hand says: %s", (_, hand) => {
     const besides = ({ shift_px, rotation_deg, scale_px_per_mm }: Overlay): Px => {
       const radians = (rotation_deg * Math.PI) / 180;
-      const [x = 0, y = 0] = shift_px;
+      const [x, y] = shift_px;
       return [x + scale_px_per_mm * Math.cos(radians), y + scale_px_per_mm * Math.sin(radians)];
     };
     near(applyMatrix(similarity(AT, hand), besides(AT)), besides(hand));

@@ -6,7 +6,7 @@ export type Px = readonly [number, number];
 export type Matrix = readonly number[];
 
 export interface Overlay {
-  shift_px: number[];
+  shift_px: [number, number];
   /** Clockwise in the image. */
   rotation_deg: number;
   scale_px_per_mm: number;
@@ -102,7 +102,7 @@ export function isSameOverlay(one: Overlay, other: Overlay): boolean {
 }
 
 export function placeOf(overlay: Overlay): Px {
-  return [overlay.shift_px[0] ?? 0, overlay.shift_px[1] ?? 0];
+  return overlay.shift_px;
 }
 
 function wrapped(degrees: number): number {

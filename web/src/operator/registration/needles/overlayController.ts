@@ -1,9 +1,9 @@
 // Controls the overlay: painted at once, requested from the server as fast as it answers, exact with each answer.
 import { Rejection } from "../../../rest/client";
-import type { components } from "../../../schema";
+import type { LaidMessage } from "../../../api";
 import { isSameOverlay, similarity, type Matrix, type Overlay } from "./overlay";
 
-export type OverlayDrawing = components["schemas"]["LaidMessage"];
+export type OverlayDrawing = LaidMessage;
 
 export interface OverlayState {
   hand: Overlay | null;

@@ -1,7 +1,7 @@
 // Camera position measured with a ruler beside the table, and its storage.
-import type { components } from "../../../schema";
+import type { ViewMessage } from "../../../api";
 
-export type RuledView = components["schemas"]["ViewMessage"];
+export type RuledView = ViewMessage;
 
 export const FIRST_VIEW: RuledView = {
   vertical_mm: 400,

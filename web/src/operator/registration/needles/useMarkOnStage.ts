@@ -36,9 +36,7 @@ export function useMarkOnStage(
           const end = endNear(marks, from, within);
           const at = end === null ? null : (marks[end.needle]?.[end.end] ?? null);
           grip.current =
-            end === null || at === null
-              ? null
-              : { end, off: [(at[0] ?? 0) - from[0], (at[1] ?? 0) - from[1]] };
+            end === null || at === null ? null : { end, off: [at[0] - from[0], at[1] - from[1]] };
           if (end !== null) onTake(end);
         }
         const now = pxAt(xy);

@@ -1,11 +1,11 @@
 import type { ReactNode } from "react";
 import { formatFigure } from "../../../live/rounding";
-import type { components } from "../../../schema";
+import type { NudgeRecord } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { formatSecond } from "../../parts/format";
 
 /** Valid nudges, newest first: what, who, when. */
-export function NudgeLog({ nudges }: { nudges: components["schemas"]["NudgeRecord"][] }): ReactNode {
+export function NudgeLog({ nudges }: { nudges: NudgeRecord[] }): ReactNode {
   const all = useTexts();
   const texts = all.registration.nudges;
   if (nudges.length === 0) return <p className="quiet">{texts.logEmpty}</p>;

@@ -1,10 +1,10 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import type { components } from "../../../schema";
+import type { NudgeAxis, NudgeKind } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 
-export type Kind = components["schemas"]["NudgeKind"];
-export type Axis = components["schemas"]["NudgeAxis"];
+export type Kind = NudgeKind;
+export type Axis = NudgeAxis;
 /** The two directions of each axis, negative first. */
 const AXES: readonly Axis[] = ["left", "back", "head"];
 

@@ -1,11 +1,11 @@
 import { Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
-import type { components } from "../../../schema";
+import type { NudgesMessage } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 
 /** Sum of all nudges, with its limit. */
-export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMessage"] }): ReactNode {
+export function NudgeSums({ nudges }: { nudges: NudgesMessage }): ReactNode {
   const texts = useTexts().registration.nudges;
   const sums = [
     { name: texts.sumMm, value: nudges.shift_mm, max: nudges.max_mm, unit: "mm" },

@@ -1,6 +1,6 @@
 import { Button, SegmentedControl } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { deleteRegistrationNudgesLast, getRegistrationNudges, postRegistrationNudges } from "../../../api";
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { useQuery } from "../../../rest/useQuery";
 import { useAction } from "../../../rest/useAction";
@@ -20,7 +20,7 @@ export function NudgesWork(): ReactNode {
   const texts = useTexts().registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
-  const query = useQuery((signal) => answered(server.GET("/api/registration/nudges", { signal })));
+  const query = useQuery((signal) => getRegistrationNudges({ signal }));
   const [kind, setKind] = useState<Kind>("shift");
   const [step, setStep] = useState("0.5");
   const doing = useAction();
@@ -37,13 +37,7 @@ export function NudgesWork(): ReactNode {
       });
   };
   const nudge = (axis: Axis, way: 1 | -1): void => {
-    run(() =>
-      answered(
-        server.POST("/api/registration/nudges", {
-          body: { made_by: madeBy, kind, axis, amount: way * Number(step) },
-        }),
-      ),
-    );
+    run(() => postRegistrationNudges({ body: { made_by: madeBy, kind, axis, amount: way * Number(step) } }));
   };
   return (
     <>
@@ -80,11 +74,7 @@ export function NudgesWork(): ReactNode {
           disabled={doing.busy || data === null || data.nudges.length === 0}
           data-testid="nudge-undo"
           onClick={() => {
-            run(() =>
-              answered(
-                server.DELETE("/api/registration/nudges/last", { params: { query: { made_by: madeBy } } }),
-              ),
-            );
+            run(() => deleteRegistrationNudgesLast({ query: { made_by: madeBy } }));
           }}
         >
           <Icon name="undo" /> {texts.nudges.undo}

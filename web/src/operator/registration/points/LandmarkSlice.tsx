@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { getCtSlicesByPlane } from "../../../api";
 import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
 import { pxInSlice } from "./sliceView";
@@ -19,13 +19,7 @@ export function LandmarkSlice({ plane, pointMm }: LandmarkSliceProps): ReactNode
   const texts = useTexts().registration.points;
   const atMm = pointMm[PLANES[plane]] ?? 0;
   const { data } = useQuery(
-    (signal) =>
-      answered(
-        server.GET("/api/ct/slices/{plane}", {
-          signal,
-          params: { path: { plane }, query: { at_mm: atMm, pixel_mm: PIXEL_MM } },
-        }),
-      ),
+    (signal) => getCtSlicesByPlane({ signal, path: { plane }, query: { at_mm: atMm, pixel_mm: PIXEL_MM } }),
     { key: `${plane} ${atMm}` },
   );
   if (data === null) return <div className="landmark-slice" />;

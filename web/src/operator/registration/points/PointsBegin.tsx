@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { postRegistrationPoints } from "../../../api";
 import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { LiveStage } from "../LiveStage";
@@ -38,7 +38,7 @@ export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
             onClick={() => {
               void beginning
                 .run(async () => {
-                  await answered(server.POST("/api/registration/points", { body: { tool } }));
+                  await postRegistrationPoints({ body: { tool } });
                 })
                 .then(onBegun);
             }}

@@ -1,10 +1,17 @@
 import { useState, type ReactNode } from "react";
 import { useLocation } from "wouter";
-import { answered, server } from "../../../rest/client";
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { useQuery } from "../../../rest/useQuery";
 import { useAction } from "../../../rest/useAction";
-import type { components } from "../../../schema";
+import {
+  deleteRegistrationPoints,
+  deleteRegistrationPointsCaptures,
+  getRegistrationPoints,
+  type PointsMessage,
+  postRegistrationPointsCaptures,
+  postRegistrationPointsConclusion,
+  putRegistrationPointsUse,
+} from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
@@ -17,7 +24,7 @@ import { LandmarkList } from "./LandmarkList";
 import { nextLandmark } from "./nextLandmark";
 import { WhereToTouch } from "./WhereToTouch";
 
-export type Points = components["schemas"]["PointsMessage"];
+export type Points = PointsMessage;
 const ASK_EVERY_MS = 250;
 
 /** Captures the landmarks, shows their fit, excludes or repeats some, and registers. */
@@ -26,7 +33,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const query = useQuery((signal) => answered(server.GET("/api/registration/points", { signal })), {
+  const query = useQuery((signal) => getRegistrationPoints({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const [picked, setPicked] = useState<string | null>(null);
@@ -47,9 +54,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
   const forget = (name: string): void => {
     setPicked(name);
     setOrder((before) => before.filter((one) => one !== name));
-    run(() =>
-      answered(server.DELETE("/api/registration/points/captures", { params: { query: { landmark: name } } })),
-    );
+    run(() => deleteRegistrationPointsCaptures({ query: { landmark: name } }));
   };
   const touched = data.landmarks.filter((one) => one.touched).map((one) => one.name);
   const last = order.findLast((name) => touched.includes(name)) ?? touched.at(-1) ?? null;
@@ -69,9 +74,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
           onCapture={(name) => {
             setPicked(null);
             setOrder((before) => [...before.filter((one) => one !== name), name]);
-            run(() =>
-              answered(server.POST("/api/registration/points/captures", { body: { landmark: name } })),
-            );
+            run(() => postRegistrationPointsCaptures({ body: { landmark: name } }));
           }}
         />
         <RegistrationRejection rejection={doing.rejection ?? query.rejection} />
@@ -88,9 +91,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
             onConfirm={() => {
               void doing
                 .run(async () => {
-                  await answered(
-                    server.POST("/api/registration/points/conclusion", { body: { made_by: madeBy } }),
-                  );
+                  await postRegistrationPointsConclusion({ body: { made_by: madeBy } });
                 })
                 .then((done) => {
                   procedure.refetch();
@@ -108,7 +109,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
             onConfirm={() => {
               void doing
                 .run(async () => {
-                  await answered(server.DELETE("/api/registration/points"));
+                  await deleteRegistrationPoints();
                 })
                 .then(onOver);
             }}
@@ -122,9 +123,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
           onPick={setPicked}
           onForget={forget}
           onUse={(name, used) => {
-            run(() =>
-              answered(server.PUT("/api/registration/points/use", { body: { landmark: name, used } })),
-            );
+            run(() => putRegistrationPointsUse({ body: { landmark: name, used } }));
           }}
         />
       </div>

@@ -1,6 +1,6 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, server } from "../../../rest/client";
+import { postRegistrationSweep } from "../../../api";
 import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
@@ -41,7 +41,7 @@ export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
           onClick={() => {
             void beginning
               .run(async () => {
-                await answered(server.POST("/api/registration/sweep", { body: { tool } }));
+                await postRegistrationSweep({ body: { tool } });
               })
               .then(onBegun);
           }}

@@ -1,12 +1,12 @@
 import type { ReactNode } from "react";
 import { Rejection } from "../../../rest/client";
-import type { components } from "../../../schema";
+import type { SweepFitMessage } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { RegistrationNumbers } from "../RegistrationNumbers";
 
 /** The fit of the sweep, its least certain direction, and why it cannot be stored. */
-export function SweepFit({ fit }: { fit: components["schemas"]["SweepFitMessage"] }): ReactNode {
+export function SweepFit({ fit }: { fit: SweepFitMessage }): ReactNode {
   const texts = useTexts().registration.sweep;
   const way = Object.hasOwn(texts.ways, fit.weakest)
     ? texts.ways[fit.weakest as keyof typeof texts.ways]

@@ -1,10 +1,10 @@
 import type { ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
-import type { components } from "../../../schema";
+import type { SweepMessage } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 
 /** Number of measured points and their extent. */
-export function SweepProgress({ sweep }: { sweep: components["schemas"]["SweepMessage"] }): ReactNode {
+export function SweepProgress({ sweep }: { sweep: SweepMessage }): ReactNode {
   const texts = useTexts().registration.sweep;
   const reach = sweep.reach_mm.map((mm) => formatNumber(mm, 0)).join(" × ");
   return (

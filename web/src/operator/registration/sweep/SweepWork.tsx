@@ -1,11 +1,19 @@
 import { Button, Loader } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useLocation } from "wouter";
-import { answered, Rejection, server } from "../../../rest/client";
+import { Rejection } from "../../../rest/client";
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { useQuery } from "../../../rest/useQuery";
 import { useAction } from "../../../rest/useAction";
-import type { components } from "../../../schema";
+import {
+  deleteRegistrationSweep,
+  getRegistrationSweep,
+  postRegistrationSweep,
+  postRegistrationSweepConclusion,
+  postRegistrationSweepFit,
+  putRegistrationSweep,
+  type SweepFitMessage,
+} from "../../../api";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
@@ -17,7 +25,7 @@ import { useMadeBy } from "../useMadeBy";
 import { SweepFit } from "./SweepFit";
 import { SweepProgress } from "./SweepProgress";
 
-type Fit = components["schemas"]["SweepFitMessage"];
+type Fit = SweepFitMessage;
 const ASK_EVERY_MS = 300;
 
 /** Runs the sweep: capture or pause, fit to the bone, register or repeat. */
@@ -26,7 +34,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const [, navigate] = useLocation();
-  const query = useQuery((signal) => answered(server.GET("/api/registration/sweep", { signal })), {
+  const query = useQuery((signal) => getRegistrationSweep({ signal }), {
     everyMs: ASK_EVERY_MS,
   });
   const [fit, setFit] = useState<Fit | null>(null);
@@ -45,10 +53,10 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
   const lay = (): void => {
     void fitting.run(async () => {
       // Paused during the fit, so that the tip need not be held still.
-      if (data.taking) await answered(server.PUT("/api/registration/sweep", { body: { taking: false } }));
+      if (data.taking) await putRegistrationSweep({ body: { taking: false } });
       query.refetch();
       setFit(null);
-      setFit(await answered(server.POST("/api/registration/sweep/fit")));
+      setFit(await postRegistrationSweepFit());
     });
   };
   return (
@@ -68,10 +76,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
             data-testid="sweep-take"
             onClick={() => {
               setFit(null);
-              run(
-                () => answered(server.PUT("/api/registration/sweep", { body: { taking: !data.taking } })),
-                query.refetch,
-              );
+              run(() => putRegistrationSweep({ body: { taking: !data.taking } }), query.refetch);
             }}
           >
             {data.taking ? texts.sweep.lift : texts.sweep.take}
@@ -96,8 +101,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
             testId="sweep-conclude"
             onConfirm={() => {
               run(
-                () =>
-                  answered(server.POST("/api/registration/sweep/conclusion", { body: { made_by: madeBy } })),
+                () => postRegistrationSweepConclusion({ body: { made_by: madeBy } }),
                 (done) => {
                   procedure.refetch();
                   if (done) navigate("/operator/register");
@@ -114,10 +118,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
             testId="sweep-again"
             onConfirm={() => {
               setFit(null);
-              run(
-                () => answered(server.POST("/api/registration/sweep", { body: { tool: data.tool } })),
-                query.refetch,
-              );
+              run(() => postRegistrationSweep({ body: { tool: data.tool } }), query.refetch);
             }}
           >
             <Icon name="undo" /> {texts.sweep.again}
@@ -127,7 +128,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
             variant="default"
             confirmLabel={texts.throwAwaySure}
             onConfirm={() => {
-              run(() => answered(server.DELETE("/api/registration/sweep")), onOver);
+              run(() => deleteRegistrationSweep(), onOver);
             }}
           >
             {texts.throwAway}
