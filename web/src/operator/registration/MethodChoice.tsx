@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import type { components } from "../../schema";
+import type { RegistrationMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { SetupCheckNote } from "../SetupCheckNote";
 import type { Way } from "./RegistrationPage";
@@ -8,7 +8,7 @@ import { RegistrationNow } from "./RegistrationNow";
 import { useActiveProcedures } from "./useActiveProcedures";
 
 // All methods but that of the rehearsal, which the server provides. A method without its page would not be offered.
-type Method = Exclude<components["schemas"]["RegistrationMessage"]["method"], "rehearsal">;
+type Method = Exclude<RegistrationMessage["method"], "rehearsal">;
 const PATH: Record<Method, Way> = { points: "points", needles: "needles", surface: "sweep" };
 
 /** Registration methods, with what each determines and misses, and their state. */

@@ -1,8 +1,8 @@
-import type { components } from "../../schema";
+import type { CollectionMessage } from "../../api";
 import { readoutEn } from "./readout";
 
 // A kind of board without its texts would not be offered.
-type ByPattern<Texts> = Record<components["schemas"]["CollectionMessage"]["board"]["pattern"], Texts>;
+type ByPattern<Texts> = Record<CollectionMessage["board"]["pattern"], Texts>;
 
 export const cameraEn = {
   title: "Camera",

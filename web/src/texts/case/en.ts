@@ -1,7 +1,6 @@
-import type { components } from "../../schema";
+import type { SceneRequest } from "../../api";
 
 // What has no text here would not be offered.
-type Scene = components["schemas"]["SceneRequest"];
 
 export const caseEn = {
   title: "Cases",
@@ -139,14 +138,14 @@ export const caseEn = {
       wandering: "drifting off at the end",
       good: "steady",
       breaching: "through the wall",
-    } satisfies Record<NonNullable<Scene["skill"]>, string>,
+    } satisfies Record<NonNullable<SceneRequest["skill"]>, string>,
     board: "Board",
     boards: {
       dots: "dots, 14 × 10, 12 mm",
       checkerboard: "checkerboard, 10 × 7, 15 mm",
       charuco: "ChArUco, 11 × 8, 15 mm",
       aprilgrid: "AprilGrid, 7 × 5, 20 mm",
-    } satisfies Record<NonNullable<Scene["board"]>, string>,
+    } satisfies Record<NonNullable<SceneRequest["board"]>, string>,
   },
 };
 
