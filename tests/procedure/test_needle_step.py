@@ -1,5 +1,7 @@
 """Registration with needles through the API: by marks, by overlay, or rejected."""
 
+from contextlib import ExitStack
+from pathlib import Path
 from typing import Any
 
 import cv2
@@ -7,7 +9,7 @@ import numpy as np
 import pytest
 
 from server.store import DocumentKind
-from tests.procedure.conftest import Server
+from tests.procedure.conftest import Server, serving
 from tests.procedure.patient import (
     BY,
     DRILL,
@@ -19,7 +21,7 @@ from tests.procedure.patient import (
     registered,
     withheld,
 )
-from tracker.geometry import Array, Camera, Rigid, Vertebra
+from tracker.geometry import Array, Camera, Marker, Rigid, Vertebra
 from tracker.navigation import AbsentReason
 from tracker.plan import ReferenceSlice, SliceLine
 from tracker.registration.needles import (
@@ -121,6 +123,23 @@ def test_needles_that_are_marked_register_and_say_what_they_cannot_see(server: S
     used = {**DRILL, "landmark": NEEDLE_LANDMARKS[0]}
     assert server.ask("POST", "/api/registration/check", 409, json=used)["code"] == "LANDMARK_WAS_USED"
     server.ask("POST", "/api/registration/check", 201, json={**DRILL, "landmark": "left lamina"})
+
+
+def test_a_vertebra_without_a_planned_channel_is_registered_to_the_reference(
+    tmp_path: Path, turns: ExitStack
+) -> None:
+    server = turns.enter_context(serving(tmp_path / "home", {"reference": {"marker": "reference"}}))
+    case_id = ready(server)
+    content = plan_content("L3", "L4")
+    content["vertebrae"][1]["channels"] = []
+    ct = server.store.current(case_id, DocumentKind.CT, "main")
+    server.store.put(case_id, DocumentKind.PLAN, "main", content, made_by="test", depends_on=[ct.id])
+    activate(server)
+    beside: Rigid[Camera, Marker] = Rigid.from_vector([3.0, 0.1, 0.2], [60.0, 20.0, 430.0])
+    Patient(server=server, camera_from_vertebra=truth(), camera_from_reference=beside).show(None, image=IMAGE)
+    requested = {"view": VIEW, "landmarks": NEEDLE_LANDMARKS, "marked": marked(NEEDLE_LANDMARKS)}
+    document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json={**requested, **BY, "vertebra": "L4"})
+    assert document["content"]["reference"] == "reference"
 
 
 def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:

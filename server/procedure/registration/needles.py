@@ -205,9 +205,9 @@ class NeedleStep:
                     "Clear the view of the marker on the patient, and register again.",
                     {"reference": scene.context.reference},
                 )
-            registration = anchor_to_reference(
-                registration, beside, at_in_vertebra_mm=np.mean(scene.context.entries_mm, axis=0)
-            )
+            # Of a vertebra without a channel, the needles lie where one would begin.
+            near = scene.context.entries_mm or tuple(one.point_lps_mm for one in scene.places)
+            registration = anchor_to_reference(registration, beside, at_in_vertebra_mm=np.mean(near, axis=0))
         return self._repository.put(
             scene.context,
             registration,
