@@ -19,6 +19,7 @@ from tracker.camera.detection import (
     BoardView,
     NotFoundReason,
     PlacementAmbiguity,
+    april_grid,
     board_as_seen,
     find_board,
 )
@@ -88,6 +89,23 @@ def test_tags_name_the_corners_of_a_part_and_of_a_board_upside_down(pose: Pose) 
     assert view.ids.size > 0.6 * len(APRIL_GRID.object_points_mm)
     off = np.linalg.norm(view.image_points_px - true_px(APRIL_GRID, pose)[view.ids], axis=1)
     assert off.max() < 1.0
+
+
+@pytest.mark.parametrize("read", [(3,), (3, 18)])
+def test_a_misread_tag_never_mislabels_corners(
+    monkeypatch: pytest.MonkeyPatch, read: tuple[int, ...]
+) -> None:
+    truth_px = true_px(APRIL_GRID, POSES[0])
+    image = picture(APRIL_GRID, POSES[0])
+    right = {tag: truth_px[list(APRIL_GRID.corner_ids(tag))] for tag in read}
+    seen_px = truth_px[list(APRIL_GRID.corner_ids(22))]
+    for number in set(range(30)) - {*read, 22}:
+        monkeypatch.setattr(april_grid, "_decoded", lambda *_, wrong=number: {**right, wrong: seen_px})
+        view = find_board(image, APRIL_GRID)
+        if isinstance(view, BoardView):
+            assert np.linalg.norm(view.image_points_px - truth_px[view.ids], axis=1).max() < 1.5
+        else:
+            assert len(read) == 1
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])

@@ -34,7 +34,7 @@ def find_april_grid(grey: GreyImage, board: AprilGridBoard) -> BoardView | Board
     tags: Tags = {}
     if len(decoded) >= MIN_DECODED:
         for smoothing_px in SADDLE_SMOOTHING_PX:
-            grown = _grown(decoded, saddles(grey, smoothing_px=smoothing_px), board)
+            grown = _consistent(_grown(decoded, saddles(grey, smoothing_px=smoothing_px), board), board)
             tags = max(tags, grown, key=len)
     if len(tags) < MIN_TAGS:
         return BoardNotFound(
@@ -89,6 +89,22 @@ def _grown(decoded: Tags, saddles_px: Array, board: AprilGridBoard) -> Tags:
                 predicted[tag] = corners_px
 
 
+def _consistent(tags: Tags, board: AprilGridBoard) -> Tags:
+    """Return the tags that lie where their neighbours predict them.
+
+    A tag found early was predicted from few, distant ones, and may have taken a wrong saddle.
+    """
+    out: Tags = {}
+    for tag, corners_px in tags.items():
+        near = {other: px for other, px in tags.items() if _are_neighbours(tag, other, board)}
+        predicted_px = _predicted(tag, near, board) if near else None
+        if predicted_px is not None:
+            off_px = float(np.linalg.norm(corners_px - predicted_px, axis=1).max())
+            if off_px <= _max_off_px(predicted_px, board):
+                out[tag] = corners_px
+    return out
+
+
 def _are_neighbours(tag: int, other: int, board: AprilGridBoard) -> bool:
     (row, column), (other_row, other_column) = divmod(tag, board.columns), divmod(other, board.columns)
     return max(abs(row - other_row), abs(column - other_column)) == 1
@@ -112,10 +128,13 @@ def _at_saddles(corners_px: Array, saddles_px: Array, board: AprilGridBoard) -> 
     if not len(saddles_px):
         return None
     distances_px = np.linalg.norm(corners_px[:, None] - saddles_px[None], axis=2)
-    max_off_px = MAX_OFF_GAP_RATIO * board.gap_mm / board.tag_mm * _shortest_side_px(corners_px)
-    if (distances_px.min(axis=1) > max_off_px).any():
+    if (distances_px.min(axis=1) > _max_off_px(corners_px, board)).any():
         return None
     return np.asarray(saddles_px[distances_px.argmin(axis=1)])
+
+
+def _max_off_px(corners_px: Array, board: AprilGridBoard) -> float:
+    return MAX_OFF_GAP_RATIO * board.gap_mm / board.tag_mm * _shortest_side_px(corners_px)
 
 
 def _corners_mm(tags: list[int], board: AprilGridBoard) -> Array:
@@ -129,13 +148,19 @@ def _shortest_side_px(corners_px: Array) -> float:
 
 
 def _on_plane(tags: Tags, board: AprilGridBoard) -> Tags:
-    """Return the tags that fit the homography of the others."""
+    """Return the tags that fit the homography of the others; of two that contradict each other, none."""
     if len(tags) < MIN_DECODED:
         return tags
-    off = off_plane_px(_corners_mm(list(tags), board), np.concatenate(list(tags.values())), is_robust=True)
+    # Of two tags, either may be misread: a robust fit would follow one of them.
+    is_robust = len(tags) > MIN_DECODED
+    off = off_plane_px(
+        _corners_mm(list(tags), board), np.concatenate(list(tags.values())), is_robust=is_robust
+    )
     if off is None:
         return {}
     deviations_px = np.linalg.norm(off, axis=1).reshape(-1, 4).max(axis=1)
     side_px = float(np.median([_shortest_side_px(corners) for corners in tags.values()]))
-    max_off_px = OFF_PLANE_RATIO * side_px + 3.0 * float(np.median(deviations_px))
+    max_off_px = OFF_PLANE_RATIO * side_px
+    if is_robust:
+        max_off_px += 3.0 * float(np.median(deviations_px))
     return {one: tags[one] for one, off_px in zip(tags, deviations_px, strict=True) if off_px <= max_off_px}
