@@ -74,10 +74,18 @@ test("where no scene is shown the cuts give way first", () => {
 });
 
 test("a machine shared with the server shows fewer pictures to keep its figures young", () => {
-  steps = budgetSteps(500, false, true);
+  steps = budgetSteps(500, false, 500);
   pass(30, { ...IDLE, ageMs: 140 }, 150);
   expect(steps[step]).toMatchObject({ pictureIntervalMs: 160, largestPicture: "full" });
   expect(Math.max(...budgetSteps(500, false).map((one) => one.pictureIntervalMs))).toBe(62);
+});
+
+test.each([
+  [300, 100],
+  [200, 62],
+])("with an age limit of %d ms a picture is not older than it before the next one", (limitMs, slowestMs) => {
+  const intervals = budgetSteps(500, false, limitMs).map((one) => one.pictureIntervalMs);
+  expect(Math.max(...intervals)).toBe(slowestMs);
 });
 
 test("a scene that is opened leaves cuts and pictures as they are, and begins at its best", () => {

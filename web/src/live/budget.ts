@@ -33,8 +33,8 @@ const FEW_CUTS_INTERVAL_MS = 200;
 /** Twenty and sixteen pictures a second. */
 const PICTURE_INTERVALS_MS = [50, 62];
 /** On a machine shared with the server each picture delays the figures of the next image: down to six a second. */
-const SHARED_PICTURE_INTERVALS_MS = [...PICTURE_INTERVALS_MS, 100, 160];
-/** Drawn less often than this share of their age limit, a scene or cut would become stale in between. */
+const SHARED_PICTURE_INTERVALS_MS = [100, 160];
+/** Drawn less often than this share of their age limit, a scene, cut or picture would become stale in between. */
 const MAX_INTERVAL_RATIO = 0.4;
 
 /** Time until a change has an effect. */
@@ -53,17 +53,22 @@ const IDLE = { showingMs: 25, screenIntervalMs: 28, ageRatio: 0.5 };
 /** Below this rate the picture is made smaller, as the last resort. */
 const MIN_IMAGES_PER_S = 12;
 
-/** The steps, best first. A hidden scene cannot be reduced. */
+/**
+ * The steps, best first. A hidden scene cannot be reduced. `sharedPictureStaleAfterMs`: the age limit of pictures if the
+ * server shares the machine, else null.
+ */
 export function budgetSteps(
   staleAfterMs: number,
   isSceneShown: boolean,
-  sharesMachine = false,
+  sharedPictureStaleAfterMs: number | null = null,
 ): DrawingBudget[] {
   const slowestMs = MAX_INTERVAL_RATIO * staleAfterMs;
   const scene = isSceneShown ? sceneSteps(slowestMs) : [UNLIMITED];
   const cutIntervalMs = Math.max(UNLIMITED.cutIntervalMs, Math.min(FEW_CUTS_INTERVAL_MS, slowestMs));
   const fewCuts = { ...(scene.at(-1) ?? UNLIMITED), cutIntervalMs };
-  const intervals = sharesMachine ? SHARED_PICTURE_INTERVALS_MS : PICTURE_INTERVALS_MS;
+  const slowestPictureMs = MAX_INTERVAL_RATIO * (sharedPictureStaleAfterMs ?? 0);
+  const shared = SHARED_PICTURE_INTERVALS_MS.filter((ms) => ms <= slowestPictureMs);
+  const intervals = [...PICTURE_INTERVALS_MS, ...shared];
   const fewPictures = intervals.map((pictureIntervalMs) => ({ ...fewCuts, pictureIntervalMs }));
   return [...scene, fewCuts, ...fewPictures, { ...(fewPictures.at(-1) ?? fewCuts), largestPicture: "half" }];
 }

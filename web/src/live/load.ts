@@ -24,7 +24,11 @@ export class Load {
   private readonly control = new BudgetControl();
   private isSceneShown = false;
   private steps: DrawingBudget[] = budgetSteps(0, false);
-  private stepsFor = { staleAfterMs: 0, isSceneDrawn: false, sharesMachine: false };
+  private stepsFor = {
+    staleAfterMs: 0,
+    isSceneDrawn: false,
+    sharedPictureStaleAfterMs: null as number | null,
+  };
   private cameraPx: readonly [number, number] | null = null;
   private current = 0;
 
@@ -92,7 +96,7 @@ export class Load {
   }
 
   update(nowMs: number, limits: Limits, cameraHz: number): PictureDelivery {
-    this.chooseSteps(nowMs, limits.scene_stale_after_ms);
+    this.chooseSteps(nowMs, limits);
     const timings = this.window.means(nowMs, this.control.sinceMs);
     const ageLimitMs = this.sharesMachine ? limits.pose_stale_after_ms : null;
     this.sceneSwitch.update(nowMs, this.window, this.control.isSceneDrawnByProcessor ? ageLimitMs : null);
@@ -105,19 +109,21 @@ export class Load {
     });
   }
 
-  private chooseSteps(nowMs: number, staleAfterMs: number): void {
+  private chooseSteps(nowMs: number, limits: Limits): void {
+    const staleAfterMs = limits.scene_stale_after_ms;
     const isSceneDrawn = this.isSceneShown && this.sceneSwitch.isOn;
-    const { stepsFor, sharesMachine } = this;
+    const sharedPictureStaleAfterMs = this.sharesMachine ? limits.video_stale_after_ms : null;
+    const { stepsFor } = this;
     if (
       stepsFor.staleAfterMs === staleAfterMs &&
       stepsFor.isSceneDrawn === isSceneDrawn &&
-      stepsFor.sharesMachine === sharesMachine
+      stepsFor.sharedPictureStaleAfterMs === sharedPictureStaleAfterMs
     ) {
       return;
     }
-    const steps = budgetSteps(staleAfterMs, isSceneDrawn, sharesMachine);
+    const steps = budgetSteps(staleAfterMs, isSceneDrawn, sharedPictureStaleAfterMs);
     this.control.setSteps(this.steps, steps, nowMs);
     this.steps = steps;
-    this.stepsFor = { staleAfterMs, isSceneDrawn, sharesMachine };
+    this.stepsFor = { staleAfterMs, isSceneDrawn, sharedPictureStaleAfterMs };
   }
 }
