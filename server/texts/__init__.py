@@ -19,7 +19,7 @@ with the same format, so that its digits are the same. Texts that a person typed
 another program reported are not translated.
 
 An error is raised in English. To translate one, add its template to the module of its area and its remedy to
-`errors/remedies.py`, and give the error its values by name in `context`. Errors without German stay English;
+`errors/remedies`, and give the error its values by name in `context`. Errors without German stay English;
 `tests/server/texts/test_error_texts.py` counts them, and the number may only fall.
 """
 

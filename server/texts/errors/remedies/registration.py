@@ -1,0 +1,148 @@
+"""Remedies of errors of registration and its check."""
+
+from server.texts.language import Text
+
+REGISTRATION: tuple[Text, ...] = (
+    {
+        "en": "Start the registration again with the current plan, camera and tool.",
+        "de": "Die Registrierung mit jetziger Planung, Kamera und jetzigem Instrument neu beginnen.",
+    },
+    {
+        "en": "Calibrate the camera first, or set camera.calibration to its file.",
+        "de": "Zuerst die Kamera kalibrieren, oder camera.calibration auf ihre Datei setzen.",
+    },
+    {"en": "Mark each planned needle once.", "de": "Jede geplante Nadel einmal markieren."},
+    {"en": "Fit the overlay first.", "de": "Zuerst die Schicht anpassen."},
+    {
+        "en": "Clear the view of the marker on the patient, and register again.",
+        "de": "Die Sicht auf den Patientenmarker freimachen und neu registrieren.",
+    },
+    {"en": "Turn it to the camera, and register again.", "de": "Ihn zur Kamera drehen und neu registrieren."},
+    {
+        "en": "Mark more landmarks on the CT in the plan, including one for the check.",
+        "de": "In der Planung weitere Landmarken auf dem CT setzen, auch eine für die Prüfung.",
+    },
+    {
+        "en": "Capture another landmark, or include one that was excluded.",
+        "de": "Eine weitere Landmarke antasten, oder eine ausgeschlossene wieder verwenden.",
+    },
+    {
+        "en": "Touch at least three landmarks that are not collinear; four or more reveal a gross error.",
+        "de": "Mindestens drei Landmarken antasten, die nicht auf einer Geraden liegen; ab vier fällt ein "
+        "grober Fehler auf.",
+    },
+    {
+        "en": "Register by these points only, or by the needles only.",
+        "de": "Nur mit diesen Punkten registrieren, oder nur mit den Nadeln.",
+    },
+    {"en": "Capture it first.", "de": "Sie zuerst antasten."},
+    {
+        "en": "Hold the marker nearer to the camera and in better light, and touch the landmark again.",
+        "de": "Den Marker näher an die Kamera und in besseres Licht halten und die Landmarke neu antasten.",
+    },
+    {
+        "en": "Rest the hand, hold the tip still on the landmark, and touch it again.",
+        "de": "Die Hand auflegen, die Spitze ruhig auf die Landmarke halten und neu antasten.",
+    },
+    {
+        "en": "Touch it again; if the error remains, patient or reference has moved: register again.",
+        "de": "Neu antasten; bleibt der Fehler, hat sich Patient oder Patientenmarker bewegt: neu "
+        "registrieren.",
+    },
+    {
+        "en": "Check on another landmark: one that was used fits by construction.",
+        "de": "An einer anderen Landmarke prüfen: eine verwendete passt immer.",
+    },
+    {
+        "en": "Check that each needle is on its landmark and marked at its entry into the bone.",
+        "de": "Prüfen, dass jede Nadel auf ihrer Landmarke sitzt und an ihrem Eintritt in den Knochen "
+        "markiert ist.",
+    },
+    {
+        "en": "Touch a needle's entry with the tool's tip, or measure the camera's tilt more accurately.",
+        "de": "Den Eintritt einer Nadel mit der Spitze des Instruments antasten, oder die Neigung der "
+        "Kamera genauer messen.",
+    },
+    {
+        "en": "Set a landmark for each needle on the CT, or draw the three lines.",
+        "de": "Auf dem CT für jede Nadel eine Landmarke setzen, oder die drei Linien zeichnen.",
+    },
+    {
+        "en": "Set a landmark for each needle on the CT.",
+        "de": "Auf dem CT für jede Nadel eine Landmarke setzen.",
+    },
+    {"en": "Put the needles farther apart.", "de": "Die Nadeln weiter auseinander setzen."},
+    {
+        "en": "Put one needle farther from the line through the others.",
+        "de": "Eine Nadel weiter weg von der Geraden durch die anderen setzen.",
+    },
+    {
+        "en": "Mark each needle by hand, or remove the drill and other instruments from the image.",
+        "de": "Jede Nadel von Hand markieren, oder Bohrer und andere Instrumente aus dem Bild nehmen.",
+    },
+    {
+        "en": "Undo nudges, or register again: an error of this size needs a new registration.",
+        "de": "Feinkorrekturen rückgängig machen, oder neu registrieren: ein Fehler dieser Größe braucht "
+        "eine neue Registrierung.",
+    },
+    {"en": "The registration is unchanged.", "de": "Die Registrierung ist unverändert."},
+    {
+        "en": "Sweep the tip slowly over both laminae, the base of the spinous process and both facets.",
+        "de": "Mit der Spitze langsam beide Laminae, die Basis des Dornfortsatzes und beide Facetten "
+        "abfahren.",
+    },
+    {
+        "en": "Register by landmarks first, and check that mesh and sweep are both in mm and of this "
+        "vertebra.",
+        "de": "Zuerst mit Landmarken registrieren, und prüfen, dass Netz und Abfahrt in mm sind und zu "
+        "diesem Wirbel gehören.",
+    },
+    {
+        "en": "Keep the tip on bare bone while sweeping, and lift it off only when the sweep has ended.",
+        "de": "Die Spitze beim Abfahren auf freiem Knochen halten und erst am Ende abheben.",
+    },
+    {
+        "en": "Hold the tip in the divot, tilt the tool slowly to all sides by 20 degrees and more, and "
+        "calibrate again.",
+        "de": "Die Spitze in der Mulde halten, das Instrument langsam um 20 Grad und mehr nach allen Seiten "
+        "schwenken und neu kalibrieren.",
+    },
+    {
+        "en": "Hold the tip still on the landmark until it is captured.",
+        "de": "Die Spitze ruhig auf die Landmarke halten, bis sie erfasst ist.",
+    },
+    {
+        "en": "Hold the tip still on the landmark for another {left_s:.1f} s, until it is captured.",
+        "de": "Die Spitze noch {left_s:.1f} s ruhig auf die Landmarke halten, bis sie erfasst ist.",
+    },
+    {
+        "en": "Hold the tip still on the landmark until it is taken.",
+        "de": "Die Spitze ruhig auf die Landmarke halten, bis sie erfasst ist.",
+    },
+    {
+        "en": "Hold the tip still on the landmark for {hold_s:.1f} s at {rate_hz:.1f} images/s, until it is "
+        "taken.",
+        "de": "Die Spitze {hold_s:.1f} s lang (bei {rate_hz:.1f} Bildern/s) ruhig auf die Landmarke halten, "
+        "bis sie erfasst ist.",
+    },
+    {
+        "en": "Turn the markers to the camera, do not cover them, and touch the landmark again.",
+        "de": "Die Marker zur Kamera drehen, nicht verdecken, und die Landmarke neu antasten.",
+    },
+    {
+        "en": "Hold the tip still, and touch the landmark again.",
+        "de": "Die Spitze ruhig halten und die Landmarke neu antasten.",
+    },
+    {
+        "en": "Touch the landmark again when images come faster.",
+        "de": "Die Landmarke neu antasten, wenn die Bilder schneller kommen.",
+    },
+    {
+        "en": "Available tools: {tools}. Calibrate tip and axis first.",
+        "de": "Verfügbare Instrumente: {tools}. Zuerst Spitze und Achse kalibrieren.",
+    },
+    {
+        "en": "Existing landmarks: {landmarks}. Set them in the plan.",
+        "de": "Vorhandene Landmarken: {landmarks}. In der Planung setzen.",
+    },
+)
