@@ -145,4 +145,127 @@ REGISTRATION: tuple[Text, ...] = (
         "en": "Existing landmarks: {landmarks}. Set them in the plan.",
         "de": "Vorhandene Landmarken: {landmarks}. In der Planung setzen.",
     },
+    {
+        "en": "Touch these landmarks again, each when its name is shown, or put the rows in order.",
+        "de": "Tasten Sie diese Landmarken neu an, jede, wenn ihr Name angezeigt wird, oder ordnen "
+        "Sie die Zeilen.",
+    },
+    {
+        "en": "Check that left and right landmarks are not exchanged, and that no axis has the "
+        "wrong sign (LPS and RAS differ in two signs, not in one).",
+        "de": "Prüfen Sie, dass linke und rechte Landmarken nicht vertauscht sind und keine Achse "
+        "das falsche Vorzeichen hat (LPS und RAS unterscheiden sich in zwei Vorzeichen, "
+        "nicht in einem).",
+    },
+    {
+        "en": "Touch the landmarks again, and choose ones whose distances from each other differ.",
+        "de": "Tasten Sie die Landmarken neu an, und wählen Sie solche mit verschiedenen Abständen "
+        "voneinander.",
+    },
+    {"en": "Give each landmark a unique name.", "de": "Geben Sie jeder Landmarke einen eigenen Namen."},
+    {
+        "en": "Give a symmetric positive 3x3 matrix in mm^2 for each tip, or none at all.",
+        "de": "Geben Sie zu jeder Spitze eine symmetrische, positive 3x3-Matrix in mm^2 an, oder zu keiner.",
+    },
+    {
+        "en": "Add landmarks, farther apart and around the target, then register again.",
+        "de": "Nehmen Sie weitere Landmarken hinzu, weiter auseinander und um den Zielpunkt herum, "
+        "und registrieren Sie neu.",
+    },
+    {
+        "en": "Give both in millimetres, and check that both files are of the same landmarks.",
+        "de": "Geben Sie beide in Millimetern an, und prüfen Sie, dass beide Dateien dieselben "
+        "Landmarken enthalten.",
+    },
+    {
+        "en": "Exclude one of them, or touch it again.",
+        "de": "Schließen Sie einen davon aus, oder tasten Sie ihn neu an.",
+    },
+    {
+        "en": "Sweep surfaces with other normals too: the flanks of the spinous process, the rims "
+        "of the facets, the transverse processes.",
+        "de": "Fahren Sie auch Flächen anderer Richtung ab: die Seiten des Dornfortsatzes, die "
+        "Ränder der Gelenkfortsätze, die Querfortsätze.",
+    },
+    {
+        "en": "Sweep more of the bone: the base of the spinous process, and both facets.",
+        "de": "Fahren Sie mehr vom Knochen ab: die Basis des Dornfortsatzes und beide Gelenkfortsätze.",
+    },
+    {"en": "Register again.", "de": "Registrieren Sie neu."},
+    {
+        "en": "Give both in mm: the landmark on the CT, the tip in the anchor's frame.",
+        "de": "Geben Sie beide in mm an: die Landmarke auf dem CT, die Spitze im Koordinatensystem "
+        "des Ankers.",
+    },
+    {"en": "Align the slice with the needles again.", "de": "Richten Sie die Schicht neu an den Nadeln aus."},
+    {
+        "en": "Give a point and a direction in LPS, and spreads above 0.",
+        "de": "Geben Sie einen Punkt und eine Richtung in LPS an, und Streuungen über 0.",
+    },
+    {"en": "Name each once.", "de": "Benennen Sie jede einmal."},
+    {
+        "en": "Measure V and H from the camera to the patient, and give their accuracy.",
+        "de": "Messen Sie V und H von der Kamera zum Patienten, und geben Sie ihre Genauigkeit an.",
+    },
+    {
+        "en": "Measure H to the vertebra again, or tilt the camera.",
+        "de": "Messen Sie H bis zum Wirbel neu, oder neigen Sie die Kamera.",
+    },
+    {
+        "en": "Mark the needle's exit from the bone, and its head.",
+        "de": "Markieren Sie den Austritt der Nadel aus dem Knochen und ihren Kopf.",
+    },
+    {
+        "en": "Give a point of the plan in mm, such as the entry point.",
+        "de": "Geben Sie einen Punkt der Planung in mm an, etwa den Eintrittspunkt.",
+    },
+    {
+        "en": "Register by points again, then sweep.",
+        "de": "Registrieren Sie zuerst neu mit Landmarken, und fahren Sie dann ab.",
+    },
+    {
+        "en": "Set reference.marker to the marker on the patient, or register again.",
+        "de": "Setzen Sie reference.marker auf den Patientenmarker, oder registrieren Sie neu.",
+    },
+    {
+        "en": "Touch that landmark again, or leave it out, then register again.",
+        "de": "Tasten Sie diese Landmarke neu an, oder lassen Sie sie weg, und registrieren Sie neu.",
+    },
+    {
+        "en": "Touch {possible_outliers[0]} again, which is the likeliest; {possible_outliers[1]} may "
+        "be mistaken instead, which another landmark would show.",
+        "de": "Tasten Sie {possible_outliers[0]} neu an, die wahrscheinlichste; auch "
+        "{possible_outliers[1]} kann falsch sein, was eine weitere Landmarke zeigen würde.",
+    },
+    {
+        "en": "Touch {possible_outliers[0]} again, which is the likeliest; {possible_outliers[1]} or "
+        "{possible_outliers[2]} may be mistaken instead, which another landmark would show.",
+        "de": "Tasten Sie {possible_outliers[0]} neu an, die wahrscheinlichste; auch "
+        "{possible_outliers[1]} oder {possible_outliers[2]} kann falsch sein, was eine weitere "
+        "Landmarke zeigen würde.",
+    },
+    {
+        "en": "Start a registration by landmarks with a tool.",
+        "de": "Beginnen Sie eine Registrierung mit Landmarken mit einem Instrument.",
+    },
+    {"en": "Start a sweep with a tool.", "de": "Beginnen Sie eine Abfahrt mit einem Instrument."},
+    {"en": "Start a check on a landmark.", "de": "Beginnen Sie eine Prüfung an einer Landmarke."},
+    {
+        "en": "Start a collection for a calibration board.",
+        "de": "Beginnen Sie eine Aufnahme für eine Kalibriertafel.",
+    },
+    {
+        "en": "Start a measurement on the camera's page.",
+        "de": "Beginnen Sie eine Messung auf der Seite der Kamera.",
+    },
+    {"en": "Start a measurement of the readout time.", "de": "Beginnen Sie eine Messung der Auslesezeit."},
+    {
+        "en": "Start a collection for a tool and a purpose.",
+        "de": "Beginnen Sie eine Aufnahme für ein Instrument und einen Zweck.",
+    },
+    {
+        "en": "Add a landmark that lies well beside that line, such as a transverse process, and fit again.",
+        "de": "Nehmen Sie eine Landmarke deutlich neben dieser Geraden hinzu, etwa einen Querfortsatz, und "
+        "passen Sie neu an.",
+    },
 )
