@@ -14,6 +14,7 @@ _ANCHORS: tuple[Text, ...] = (
     {"en": "camera", "de": "die Kamera"},
     {"en": "reference", "de": "den Patientenmarker"},
 )
+_SIDES: tuple[Text, ...] = ({"en": "left", "de": "links"}, {"en": "right", "de": "rechts"})
 
 PHRASES: Mapping[str, tuple[Text, ...]] = {
     "points_where": (
@@ -122,4 +123,25 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
         {"en": "registration by landmarks is", "de": "Registrierung mit Landmarken"},
         {"en": "sweep is", "de": "Abfahrt"},
     ),
+    "bone_shape": (
+        {
+            "en": "it is {width_mm:.1f} x {height_mm:.1f} mm",
+            "de": "er misst {width_mm:.1f} x {height_mm:.1f} mm",
+        },
+        {
+            "en": "it is equally thick for {length_mm:.0f} mm and joins neither body nor arch",
+            "de": "er ist über {length_mm:.0f} mm gleich dick und geht weder in Wirbelkörper noch Bogen über",
+        },
+    ),
+    "second": (
+        {"en": "from 2 mm aside none is found", "de": "2 mm daneben wird keiner gefunden"},
+        {
+            "en": "from a few mm aside it is {other_mm[0]:.1f} x {other_mm[1]:.1f} mm, "
+            "{apart_mm:.1f} mm away",
+            "de": "wenige mm daneben ist er {other_mm[0]:.1f} x {other_mm[1]:.1f} mm, "
+            "{apart_mm:.1f} mm entfernt",
+        },
+    ),
+    "side": _SIDES,
+    "other_side": _SIDES,
 }

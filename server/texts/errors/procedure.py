@@ -303,4 +303,87 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "de": "{views} Ansichten sind aufgenommen, das ist die Höchstzahl",
         },
     ),
+    "PEDICLE_CUT": (
+        {
+            "en": "the CT ends within the pedicle: {outside_percent:.0f} % of its wall lie outside, none may",
+            "de": "das CT endet im Pedikel: {outside_percent:.0f} % seiner Wand liegen außerhalb, "
+            "erlaubt ist nichts",
+        },
+    ),
+    "PEDICLE_DOUBTFUL": (
+        {
+            "en": "the narrowest section that was found, {width_mm:.1f} x {height_mm:.1f} mm at "
+            "{centre} mm, is hardly the pedicle's: beyond its medial wall bone goes on for "
+            "{beyond_mm:.0f} mm (allowed {allowed_mm:.0f} mm), where the canal should begin",
+            "de": "der engste gefundene Querschnitt, {width_mm:.1f} x {height_mm:.1f} mm bei {centre} "
+            "mm, ist kaum der des Pedikels: jenseits seiner medialen Wand reicht Knochen noch "
+            "{beyond_mm:.0f} mm weiter (erlaubt {allowed_mm:.0f} mm), wo der Spinalkanal "
+            "beginnen müsste",
+        },
+        {
+            "en": "the narrowest section from the click is {width_mm:.1f} x {height_mm:.1f} mm, and "
+            "{second}; they should be one",
+            "de": "der engste Querschnitt von der angetippten Stelle aus ist {width_mm:.1f} x "
+            "{height_mm:.1f} mm, und {second}; beide müssten gleich sein",
+        },
+    ),
+    "PEDICLE_NOT_FOUND": (
+        {
+            "en": "the bone at the click ({seed_hu:.0f} HU) is open on all sides: no section of it "
+            "within 7 mm is closed",
+            "de": "der Knochen an der angetippten Stelle ({seed_hu:.0f} HU) ist nach allen Seiten "
+            "offen: kein Querschnitt innerhalb von 7 mm ist geschlossen",
+        },
+        {
+            "en": "the bone around the click is not a pedicle: {bone_shape} (noise {noise_hu:.0f} HU)",
+            "de": "der Knochen um die angetippte Stelle ist kein Pedikel: {bone_shape} (Rauschen "
+            "{noise_hu:.0f} HU)",
+        },
+    ),
+    "SEED_INVALID": (
+        {
+            "en": "the click is not three finite numbers",
+            "de": "die angetippte Stelle besteht nicht aus drei endlichen Zahlen",
+        },
+    ),
+    "SEED_IN_AIR": (
+        {
+            "en": "the click lies in air or lung: {seed_hu:.0f} HU, bone begins far above {air_hu:.0f} HU",
+            "de": "die angetippte Stelle liegt in Luft oder Lunge: {seed_hu:.0f} HU, Knochen beginnt "
+            "weit über {air_hu:.0f} HU",
+        },
+    ),
+    "SEED_NOT_IN_BONE": (
+        {
+            "en": "the click lies in {seed_hu:.0f} HU and no wall of bone closes around it, bone here "
+            "is above {limit_hu:.0f} HU",
+            "de": "die angetippte Stelle liegt in {seed_hu:.0f} HU, und keine Knochenwand schließt "
+            "sich um sie, Knochen liegt hier über {limit_hu:.0f} HU",
+        },
+    ),
+    "SEED_NOT_IN_PEDICLE": (
+        {
+            "en": "the nearest bar of bone does not contain the click: it lies {outside_mm:.1f} mm "
+            "beside its wall (allowed {allowed_mm:.1f} mm) and {beyond_mm:.1f} mm beyond its end "
+            "(allowed 9 mm)",
+            "de": "der nächste Knochensteg enthält die angetippte Stelle nicht: sie liegt "
+            "{outside_mm:.1f} mm neben seiner Wand (erlaubt {allowed_mm:.1f} mm) und "
+            "{beyond_mm:.1f} mm hinter seinem Ende (erlaubt 9 mm)",
+        },
+    ),
+    "SEED_ON_OTHER_SIDE": (
+        {
+            "en": "side is {side}, but canal and body lie as they do beside the patient's {other_side} "
+            "pedicle",
+            "de": "als Seite ist {side} angegeben, aber Spinalkanal und Wirbelkörper liegen wie beim "
+            "Pedikel {other_side}",
+        },
+    ),
+    "SEED_OUTSIDE_CT": (
+        {
+            "en": "the click at {seed} mm lies outside the CT, which reaches from {low} to {high} mm (LPS)",
+            "de": "die angetippte Stelle bei {seed} mm liegt außerhalb des CT, das von {low} bis "
+            "{high} mm reicht (LPS)",
+        },
+    ),
 }

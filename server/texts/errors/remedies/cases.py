@@ -81,4 +81,28 @@ CASES: tuple[Text, ...] = (
         "en": "Export it with fewer triangles, or as binary STL or PLY.",
         "de": "Mit weniger Dreiecken exportieren, oder als binäres STL oder PLY.",
     },
+    {
+        "en": "Export the series again with its geometry; pictures of slices are not usable for planning.",
+        "de": "Exportieren Sie die Serie neu mit ihrer Geometrie; Bilder von Schichten eignen sich "
+        "nicht zur Planung.",
+    },
+    {"en": "Give the original CT.", "de": "Geben Sie das ursprüngliche CT an."},
+    {
+        "en": "Export the original CT series again, in Hounsfield units.",
+        "de": "Exportieren Sie die ursprüngliche CT-Serie neu, in Hounsfield-Einheiten.",
+    },
+    {
+        "en": "Export only the part around the vertebrae, or a series with fewer pixels.",
+        "de": "Exportieren Sie nur den Teil um die Wirbel, oder eine Serie mit weniger Pixeln.",
+    },
+    {
+        "en": "Copy or export the series again; a truncated slice cannot be repaired.",
+        "de": "Kopieren oder exportieren Sie die Serie neu; eine abgeschnittene Schicht lässt sich nicht "
+        "reparieren.",
+    },
+    {
+        "en": "Export the series again uncompressed, or with lossless JPEG 2000, JPEG-LS, JPEG or RLE.",
+        "de": "Exportieren Sie die Serie neu, unkomprimiert oder verlustfrei mit JPEG 2000, JPEG-LS, JPEG "
+        "oder RLE.",
+    },
 )

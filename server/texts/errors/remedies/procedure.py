@@ -210,4 +210,36 @@ PROCEDURE: tuple[Text, ...] = (
         "en": "Convert the CT again with its geometry (dcm2niix does), or give its DICOM slices.",
         "de": "Das CT mit seiner Geometrie neu umwandeln (wie dcm2niix), oder seine DICOM-Schichten angeben.",
     },
+    {
+        "en": "Give x, y, z in mm of the patient's LPS coordinates.",
+        "de": "Geben Sie x, y, z in mm in LPS-Koordinaten des Patienten an.",
+    },
+    {
+        "en": "Give a point inside the CT, in LPS mm (x to the patient's left, y backwards).",
+        "de": "Geben Sie einen Punkt im CT an, in LPS-mm (x nach links vom Patienten, y nach hinten).",
+    },
+    {
+        "en": "Click into the middle of the pedicle, on a slice that shows it joined to body and arch.",
+        "de": "Tippen Sie auf die Mitte des Pedikels, in einer Schicht, die ihn mit Wirbelkörper und Bogen "
+        "verbunden zeigt.",
+    },
+    {
+        "en": "Use a series that contains the whole vertebra.",
+        "de": "Verwenden Sie eine Serie, die den ganzen Wirbel enthält.",
+    },
+    {
+        "en": "Click nearer to the canal, into the middle of the pedicle; or give its numbers by hand.",
+        "de": "Tippen Sie näher am Spinalkanal auf die Mitte des Pedikels, oder geben Sie seine "
+        "Maße von Hand an.",
+    },
+    {
+        "en": "Click into the pedicle's middle; use finer slices if there are any; or give its "
+        "numbers by hand.",
+        "de": "Tippen Sie auf die Mitte des Pedikels, verwenden Sie feinere Schichten, falls "
+        "vorhanden, oder geben Sie seine Maße von Hand an.",
+    },
+    {
+        "en": "Click into the {side} pedicle, or measure this one as the {other_side} one.",
+        "de": "Tippen Sie auf den Pedikel {side}, oder messen Sie diesen als den Pedikel {other_side}.",
+    },
 )
