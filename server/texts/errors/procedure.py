@@ -271,6 +271,10 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
     ),
     "SLICE_OUTSIDE_CT": (
         {
+            "en": "slice {slice_index} was requested, the CT has {slices} (0 to {last})",
+            "de": "verlangt wurde Schicht {slice_index}, das CT hat {slices} (0 bis {last})",
+        },
+        {
             "en": "the reference slice is number {slice_index}, the CT has {slices}",
             "de": "die Referenzschicht hat die Nummer {slice_index}, das CT hat {slices}",
         },
@@ -384,6 +388,192 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "en": "the click at {seed} mm lies outside the CT, which reaches from {low} to {high} mm (LPS)",
             "de": "die angetippte Stelle bei {seed} mm liegt außerhalb des CT, das von {low} bis "
             "{high} mm reicht (LPS)",
+        },
+    ),
+    "BONE_INSIDE_OUT": (
+        {
+            "en": "the bone's surface encloses {volume_ml:.1f} ml: its triangles are clockwise",
+            "de": "die Knochenoberfläche umschließt {volume_ml:.1f} ml: ihre Dreiecke laufen im "
+            "Uhrzeigersinn",
+        },
+    ),
+    "BONE_NOT_AT_CHANNEL": (
+        {
+            "en": "{in_bone_percent:.0f} % of channel '{channel}' lies inside of the bone's surface, "
+            "needed {needed_percent:.0f} % or more",
+            "de": "{in_bone_percent:.0f} % des Kanals „{channel}“ liegen in der Knochenoberfläche, "
+            "nötig {needed_percent:.0f} % oder mehr",
+        },
+    ),
+    "BONE_THRESHOLD_OUTSIDE": (
+        {
+            "en": "a threshold of {threshold_hu:.0f} HU separates no voxels, which range from "
+            "{lowest_hu:.0f} to {highest_hu:.0f} HU",
+            "de": "ein Schwellwert von {threshold_hu:.0f} HU trennt keine Voxel, sie reichen von "
+            "{lowest_hu:.0f} bis {highest_hu:.0f} HU",
+        },
+    ),
+    "BONE_TOO_LARGE": (
+        {
+            "en": "at {threshold_hu:.0f} HU the surface has {vertices} vertices, allowed {max_vertices}",
+            "de": "bei {threshold_hu:.0f} HU hat die Oberfläche {vertices} Eckpunkte, erlaubt {max_vertices}",
+        },
+    ),
+    "CHANNEL_INVALID": (
+        {
+            "en": "channel '{channel}' is {length_mm:.2f} mm long with radius {radius_mm:.2f} mm, "
+            "needed at least 1 mm and above 0 mm",
+            "de": "der Kanal „{channel}“ ist {length_mm:.2f} mm lang mit einem Radius von "
+            "{radius_mm:.2f} mm, nötig mindestens 1 mm und über 0 mm",
+        },
+    ),
+    "CHANNEL_MISSING": (
+        {"en": "{vertebra} has no {side} channel", "de": "{vertebra} hat {side} keinen Kanal"},
+    ),
+    "CHANNEL_OUTSIDE_CT": (
+        {
+            "en": "channel '{channel}' runs from {entry} to {target} mm, which is not all within the CT",
+            "de": "der Kanal „{channel}“ verläuft von {entry} bis {target} mm und liegt damit nicht "
+            "ganz im CT",
+        },
+    ),
+    "CORRECTION_INVALID": (
+        {
+            "en": "'{name}' cannot be corrected, allowed are {allowed}",
+            "de": "„{name}“ kann nicht korrigiert werden, erlaubt sind {allowed}",
+        },
+        {
+            "en": "{number} was corrected to {corrected}, allowed are {low:g} to {high:g}",
+            "de": "{number} wurde auf {corrected} korrigiert, erlaubt sind {low:g} bis {high:g}",
+        },
+    ),
+    "CROP_OUTSIDE_CT": (
+        {
+            "en": "around the channels the CT has only {voxels} voxels, needed 2 along each axis",
+            "de": "um die Kanäle herum hat das CT nur {voxels} Voxel, nötig 2 längs jeder Achse",
+        },
+    ),
+    "FIELD_TOO_LARGE": (
+        {
+            "en": "the distances around the channel would take {nodes} nodes, allowed {max_nodes}",
+            "de": "die Abstände um den Kanal bräuchten {nodes} Knoten, erlaubt {max_nodes}",
+        },
+    ),
+    "LANDMARK_INVALID": (
+        {
+            "en": "landmark '{name}' has a place of shape {shape}, needed a name and three finite numbers",
+            "de": "die Landmarke „{name}“ hat einen Ort der Form {shape}, nötig ein Name und drei "
+            "endliche Zahlen",
+        },
+    ),
+    "LANDMARK_OUTSIDE_CT": (
+        {
+            "en": "landmark '{name}' was set at ({point}) mm, which is not within the CT",
+            "de": "die Landmarke „{name}“ wurde bei ({point}) mm gesetzt, das liegt nicht im CT",
+        },
+    ),
+    "LANDMARK_TWICE": (
+        {
+            "en": "{landmarks} landmarks have only {different} different names; '{name}' is there "
+            "{times} times",
+            "de": "{landmarks} Landmarken haben nur {different} verschiedene Namen; „{name}“ kommt "
+            "{times}-mal vor",
+        },
+    ),
+    "LINES_INVALID": (
+        {
+            "en": "the outer lines stand {apart_mm} mm from the middle, allowed are {min_mm:.0f} to 100 mm",
+            "de": "die äußeren Linien stehen {apart_mm} mm von der Mitte, erlaubt sind {min_mm:.0f} "
+            "bis 100 mm",
+        },
+    ),
+    "MIDDLE_OUTSIDE_CT": (
+        {
+            "en": "the middle line was set through ({middle}) mm, not on slice {slice_index} of the CT",
+            "de": "die mittlere Linie wurde durch ({middle}) mm gelegt, nicht auf Schicht "
+            "{slice_index} des CT",
+        },
+    ),
+    "MIDDLE_UNKNOWN": (
+        {
+            "en": "{pedicles} pedicle is measured, the middle lies between 2",
+            "de": "{pedicles} Pedikel ist gemessen, die Mitte liegt zwischen 2",
+        },
+    ),
+    "NO_PEDICLE_MEASURED": (
+        {
+            "en": "0 pedicles are measured, a slice is proposed from 1 or 2",
+            "de": "0 Pedikel sind gemessen, eine Schicht wird aus 1 oder 2 vorgeschlagen",
+        },
+    ),
+    "NO_SCREW_FITS": (
+        {
+            "en": "the path leaves {nearest_wall_mm:.1f} mm to the nearest wall and {front_mm:.1f} mm "
+            "to the front; the smallest screw is {thinnest_mm:.1f} x {shortest_mm:.0f} mm and "
+            "needs {needed_wall_mm:.1f} and {needed_front_mm:.1f} mm",
+            "de": "der Pfad lässt {nearest_wall_mm:.1f} mm bis zur nächsten Wand und {front_mm:.1f} mm "
+            "nach vorn; die kleinste Schraube misst {thinnest_mm:.1f} x {shortest_mm:.0f} mm und "
+            "braucht {needed_wall_mm:.1f} und {needed_front_mm:.1f} mm",
+        },
+    ),
+    "PEDICLE_MISSING": (
+        {
+            "en": "the {side} pedicle of {vertebra} is not measured",
+            "de": "der Pedikel {side} von {vertebra} ist nicht gemessen",
+        },
+    ),
+    "PLANE_INVALID": (
+        {
+            "en": "the two directions of the plane are parallel or zero",
+            "de": "die beiden Richtungen der Ebene sind parallel oder null",
+        },
+    ),
+    "PLAN_INVALID": (
+        {
+            "en": "the plan names {vertebrae} vertebrae, but only {different} different ones: {names}",
+            "de": "die Planung nennt {vertebrae} Wirbel, aber nur {different} verschiedene: {names}",
+        },
+    ),
+    "SCREW_INVALID": (
+        {
+            "en": "the screw is {diameter_mm} x {length_mm} mm, allowed are diameters under 20 and "
+            "lengths under 200 mm",
+            "de": "die Schraube misst {diameter_mm} x {length_mm} mm, erlaubt sind Durchmesser unter "
+            "20 und Längen unter 200 mm",
+        },
+    ),
+    "SIDE_INVALID": (
+        {
+            "en": "side is '{given_side}', allowed are left and right",
+            "de": "als Seite ist „{given_side}“ angegeben, erlaubt sind left und right",
+        },
+    ),
+    "SLAB_INVALID": (
+        {
+            "en": "a slab of {slab_mm:g} mm cannot be shown, allowed 0 to {max_mm:.0f} mm",
+            "de": "eine Schichtdicke von {slab_mm:g} mm kann nicht gezeigt werden, erlaubt 0 bis "
+            "{max_mm:.0f} mm",
+        },
+    ),
+    "SLICE_TOO_LARGE": (
+        {
+            "en": "a slice of {width_mm:.1f} x {height_mm:.1f} mm with pixels of {pixel_mm:.4f} mm "
+            "cannot be shown, allowed {max_px} pixels a side",
+            "de": "eine Schicht von {width_mm:.1f} x {height_mm:.1f} mm mit Pixeln von {pixel_mm:.4f} "
+            "mm kann nicht gezeigt werden, erlaubt {max_px} Pixel je Seite",
+        },
+    ),
+    "VERTEBRA_UNKNOWN": (
+        {
+            "en": "the plan has no vertebra '{name}', it has {existing}",
+            "de": "die Planung hat keinen Wirbel „{name}“, sie hat {existing}",
+        },
+    ),
+    "WINDOW_INVALID": (
+        {
+            "en": "a window of {width_hu:g} HU around {centre_hu:g} HU shows nothing, needed a width above 0",
+            "de": "ein Fenster von {width_hu:g} HU um {centre_hu:g} HU zeigt nichts, nötig ist eine "
+            "Breite über 0",
         },
     ),
 }

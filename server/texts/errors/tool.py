@@ -92,4 +92,18 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
             "de": "es gibt {different} verschiedene Lagen von {poses}, nötig {needed}",
         },
     ),
+    "SPIN_TOO_SMALL": (
+        {
+            "en": "the tool was spun by {spin_deg:.0f} degrees, needed {min_spin_deg:g}",
+            "de": "das Instrument wurde um {spin_deg:.0f}° gedreht, nötig {min_spin_deg:g}°",
+        },
+    ),
+    "SPIN_WOBBLES": (
+        {
+            "en": "the axis moved by {wobble_deg:.1f} degrees (RMS) while the tool was spun by "
+            "{spin_deg:.0f}, allowed {max_wobble_deg:g}",
+            "de": "die Achse bewegte sich um {wobble_deg:.1f}° (RMS), während das Instrument um "
+            "{spin_deg:.0f}° gedreht wurde, erlaubt {max_wobble_deg:g}",
+        },
+    ),
 }

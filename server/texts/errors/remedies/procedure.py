@@ -242,4 +242,92 @@ PROCEDURE: tuple[Text, ...] = (
         "en": "Click into the {side} pedicle, or measure this one as the {other_side} one.",
         "de": "Tippen Sie auf den Pedikel {side}, oder messen Sie diesen als den Pedikel {other_side}.",
     },
+    {"en": "Click into it first.", "de": "Tippen Sie zuerst auf ihn."},
+    {
+        "en": "Lay the channel first, from the measured pedicle or by hand.",
+        "de": "Legen Sie zuerst den Kanal, durch den gemessenen Pedikel oder von Hand.",
+    },
+    {
+        "en": "Add it to the plan, or name one that is there.",
+        "de": "Nehmen Sie ihn in die Planung auf, oder nennen Sie einen vorhandenen.",
+    },
+    {"en": "Give its ends in mm of this CT (LPS).", "de": "Geben Sie seine Enden in mm dieses CT an (LPS)."},
+    {"en": "Correct one of these numbers.", "de": "Korrigieren Sie eine dieser Zahlen."},
+    {
+        "en": "Give the number again, in mm or degrees as its name says.",
+        "de": "Geben Sie die Zahl neu an, in mm oder Grad, wie ihr Name sagt.",
+    },
+    {
+        "en": "Set entry point, target and diameter of the channel again.",
+        "de": "Setzen Sie Eintrittspunkt, Zielpunkt und Durchmesser des Kanals neu.",
+    },
+    {"en": "Plan the channels on this CT again.", "de": "Planen Sie die Kanäle auf diesem CT neu."},
+    {
+        "en": "Give it a name and set it on the CT in LPS mm.",
+        "de": "Geben Sie ihr einen Namen, und setzen Sie sie auf dem CT in LPS-mm.",
+    },
+    {"en": "Give each landmark its own name.", "de": "Geben Sie jeder Landmarke einen eigenen Namen."},
+    {"en": "Set it on this CT, in LPS mm.", "de": "Setzen Sie sie auf diesem CT, in LPS-mm."},
+    {"en": "Give each vertebra its own name.", "de": "Geben Sie jedem Wirbel einen eigenen Namen."},
+    {"en": "Name the patient's side.", "de": "Nennen Sie die Seite des Patienten."},
+    {
+        "en": "Click into a pedicle first, or choose the slice by hand.",
+        "de": "Tippen Sie zuerst auf einen Pedikel, oder wählen Sie die Schicht von Hand.",
+    },
+    {
+        "en": "Measure the other pedicle too, or give the middle by hand.",
+        "de": "Messen Sie auch den anderen Pedikel, oder geben Sie die Mitte von Hand an.",
+    },
+    {
+        "en": "Give the middle in LPS mm and the measured distance of the lines.",
+        "de": "Geben Sie die Mitte in LPS-mm und den gemessenen Abstand der Linien an.",
+    },
+    {
+        "en": "Set it through a point of this slice, in LPS mm.",
+        "de": "Legen Sie sie durch einen Punkt dieser Schicht, in LPS-mm.",
+    },
+    {
+        "en": "Move the path to the middle of the pedicle, or add a thinner or shorter screw to "
+        "the catalogue.",
+        "de": "Verschieben Sie den Pfad in die Mitte des Pedikels, oder nehmen Sie eine dünnere "
+        "oder kürzere Schraube in den Katalog auf.",
+    },
+    {
+        "en": "Give diameter and length of the screw in mm.",
+        "de": "Geben Sie Durchmesser und Länge der Schraube in mm an.",
+    },
+    {
+        "en": "Set window and level again, or choose one by name.",
+        "de": "Stellen Sie Fenster und Lage neu ein, oder wählen Sie ein Fenster nach Namen.",
+    },
+    {
+        "en": "Choose larger pixels, or a smaller field.",
+        "de": "Wählen Sie größere Pixel oder ein kleineres Feld.",
+    },
+    {"en": "Choose a thinner slab.", "de": "Wählen Sie eine geringere Schichtdicke."},
+    {"en": "Give two different directions.", "de": "Geben Sie zwei verschiedene Richtungen an."},
+    {
+        "en": "Give a threshold between them, or a region in which there is bone.",
+        "de": "Geben Sie einen Schwellwert dazwischen an, oder einen Bereich mit Knochen.",
+    },
+    {
+        "en": "Give a region around one vertebra, or a higher threshold above the noise.",
+        "de": "Geben Sie einen Bereich um einen Wirbel an, oder einen höheren Schwellwert über dem Rauschen.",
+    },
+    {
+        "en": "Import the surface again: its triangles must be counter-clockwise seen from outside.",
+        "de": "Importieren Sie die Oberfläche neu: ihre Dreiecke müssen von außen gesehen gegen "
+        "den Uhrzeigersinn laufen.",
+    },
+    {
+        "en": "Check the unit and the coordinates of the surface (mm, LPS, of the channel's own "
+        "CT); where its cortex has holes, create it again with a lower threshold.",
+        "de": "Prüfen Sie Einheit und Koordinaten der Oberfläche (mm, LPS, des CT des Kanals); wo "
+        "ihre Kortikalis Löcher hat, erzeugen Sie sie mit niedrigerem Schwellwert neu.",
+    },
+    {
+        "en": "Check entry and target of the channel: a channel through a pedicle is 25 to 75 mm long.",
+        "de": "Prüfen Sie Eintritts- und Zielpunkt des Kanals: ein Kanal durch einen Pedikel ist "
+        "25 bis 75 mm lang.",
+    },
 )
