@@ -106,4 +106,80 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
             "{spin_deg:.0f}° gedreht wurde, erlaubt {max_wobble_deg:g}",
         },
     ),
+    "MARKERS_TOO_SIMILAR": (
+        {
+            "en": "markers '{names[0]}' and '{names[1]}' look the same, however they are turned: "
+            "correlation {correlation:.3f}, allowed {max_correlation}",
+            "de": "die Marker „{names[0]}“ und „{names[1]}“ sehen in jeder Drehung gleich aus: "
+            "Korrelation {correlation:.3f}, erlaubt {max_correlation}",
+        },
+    ),
+    "MARKER_MIRROR_SYMMETRIC": (
+        {
+            "en": "marker '{marker}' is its own mirror image: correlation {correlation:.3f}, allowed "
+            "{max_correlation}; its reflection in steel would be detected as the marker, at a "
+            "wrong pose",
+            "de": "der Marker „{marker}“ ist sein eigenes Spiegelbild: Korrelation {correlation:.3f}, "
+            "erlaubt {max_correlation}; seine Spiegelung in Stahl würde als Marker erkannt, in "
+            "falscher Lage",
+        },
+    ),
+    "MARKER_NAMES_NOT_UNIQUE": (
+        {
+            "en": "{markers} markers have {different} names: {names}",
+            "de": "{markers} Marker haben {different} Namen: {names}",
+        },
+    ),
+    "MARKER_SIDE_INVALID": (
+        {
+            "en": "the side of marker '{marker}' is {side_mm} mm, needed above 0 mm",
+            "de": "die Seite des Markers „{marker}“ ist {side_mm} mm, nötig über 0 mm",
+        },
+    ),
+    "MARKER_SYMMETRIC": (
+        {
+            "en": "marker '{marker}' looks the same when rotated by {turned_deg} degrees: correlation "
+            "{correlation:.3f}, allowed {max_correlation}",
+            "de": "der Marker „{marker}“ sieht um {turned_deg} Grad gedreht gleich aus: Korrelation "
+            "{correlation:.3f}, erlaubt {max_correlation}",
+        },
+    ),
+    "POSE_COVARIANCE_INVALID": (
+        {
+            "en": "the covariances of {poses} poses have the shape {shape} or are not positive, needed "
+            "{needed_shape}",
+            "de": "die Kovarianzen von {poses} Lagen haben die Form {shape} oder sind nicht positiv, "
+            "nötig {needed_shape}",
+        },
+    ),
+    "TOOL_AXIS_INVALID": (
+        {
+            "en": "the drilling direction of '{tool}' is {axis}, which has no length",
+            "de": "die Bohrrichtung von „{tool}“ ist {axis}, sie hat keine Länge",
+        },
+    ),
+    "TOOL_FILE_OF_ANOTHER_MARKER": (
+        {
+            "en": "{file} was made with marker '{marker}' of {side_mm:g} mm, but the tool "
+            "has '{tool_marker}' of {tool_side_mm:g} mm",
+            "de": "{file} entstand mit dem Marker „{marker}“ von {side_mm:g} mm, das "
+            "Instrument hat aber „{tool_marker}“ von {tool_side_mm:g} mm",
+        },
+    ),
+    "TOOL_TIP_INVALID": (
+        {
+            "en": "the tip is {tip}, needed three numbers in mm",
+            "de": "die Spitze ist {tip}, nötig drei Zahlen in mm",
+        },
+        {
+            "en": "the tip is {tip}, which determines no direction from the marker",
+            "de": "die Spitze ist {tip}, das bestimmt keine Richtung vom Marker aus",
+        },
+    ),
+    "TOOL_TIP_UNKNOWN": (
+        {
+            "en": "tip and axis of '{tool}' are not defined",
+            "de": "Spitze und Achse von „{tool}“ sind nicht definiert",
+        },
+    ),
 }

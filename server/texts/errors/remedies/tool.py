@@ -50,4 +50,47 @@ TOOL: tuple[Text, ...] = (
         "en": "Keep the tip in the divot, tilt the tool to all sides, and check again.",
         "de": "Die Spitze in der Mulde halten, das Instrument nach allen Seiten schwenken und erneut prüfen.",
     },
+    {
+        "en": "Calibrate the tool with its present marker; a tip is never scaled.",
+        "de": "Kalibrieren Sie das Instrument mit seinem jetzigen Marker; eine Spitze wird nie skaliert.",
+    },
+    {
+        "en": "Give tools.{tool}.calibration, or tip_in_marker_mm and axis_in_marker.",
+        "de": "Geben Sie tools.{tool}.calibration an, oder tip_in_marker_mm und axis_in_marker.",
+    },
+    {
+        "en": "Give the tip in the marker's frame, as pivot calibration returns it.",
+        "de": "Geben Sie die Spitze im Koordinatensystem des Markers an, wie die "
+        "Pivot-Kalibrierung sie liefert.",
+    },
+    {
+        "en": "Give the tip as three numbers in mm in the marker's frame, as pivot calibration returns it.",
+        "de": "Geben Sie die Spitze als drei Zahlen in mm im Koordinatensystem des Markers an, wie "
+        "die Pivot-Kalibrierung sie liefert.",
+    },
+    {
+        "en": "Give the direction from the marker towards the tip, as three numbers.",
+        "de": "Geben Sie die Richtung vom Marker zur Spitze als drei Zahlen an.",
+    },
+    {
+        "en": "Give each pose its covariance (6, 6) in mm and radians, translation first, or give none.",
+        "de": "Geben Sie zu jeder Lage ihre Kovarianz (6, 6) in mm und Radiant an, Translation "
+        "zuerst, oder zu keiner.",
+    },
+    {
+        "en": "Measure the outer side of the printed black square in mm.",
+        "de": "Messen Sie die äußere Seite des gedruckten schwarzen Quadrats in mm.",
+    },
+    {
+        "en": "Use shapes that differ; 'coaxial marker design' with another seed makes another.",
+        "de": "Verwenden Sie verschiedene Formen; „coaxial marker design“ mit einem anderen "
+        "Startwert erzeugt eine andere.",
+    },
+    {
+        "en": "Use a shape that differs from its mirror image; 'coaxial marker design' makes one.",
+        "de": "Verwenden Sie eine Form, die sich von ihrem Spiegelbild unterscheidet; „coaxial "
+        "marker design“ erzeugt eine.",
+    },
+    {"en": "Use a shape without rotational symmetry.", "de": "Verwenden Sie eine Form ohne Drehsymmetrie."},
+    {"en": "Give each marker a unique name.", "de": "Geben Sie jedem Marker einen eigenen Namen."},
 )
