@@ -260,4 +260,16 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "{max_hu} HU, höchstens {max_ratio:.0%}: Steigung oder Achsenabschnitt ist falsch",
         },
     ),
+    "CONTENT_TOO_LARGE": (
+        {
+            "en": "the document has {size_mb:.1f} MB, the maximum is {max_mb:g} MB",
+            "de": "das Dokument hat {size_mb:.1f} MB, höchstens {max_mb:g} MB",
+        },
+    ),
+    "SUFFIX_INVALID": (
+        {
+            "en": "'{suffix}' is not a valid file name suffix",
+            "de": "„{suffix}“ ist keine gültige Dateiendung",
+        },
+    ),
 }

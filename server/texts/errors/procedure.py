@@ -576,4 +576,23 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "Breite über 0",
         },
     ),
+    "ALARM_NOT_LOGGED": (
+        {
+            "en": "the action could not be written to the alarm log within {timeout_s:g} s",
+            "de": "die Aktion konnte nicht innerhalb von {timeout_s:g} s in das Alarmprotokoll "
+            "geschrieben werden",
+        },
+    ),
+    "MESH_FORMAT_UNKNOWN": (
+        {
+            "en": "the start of the file ({bytes} bytes) is not that of STL, OBJ or PLY",
+            "de": "der Anfang der Datei ({bytes} Bytes) ist nicht der von STL, OBJ oder PLY",
+        },
+    ),
+    "SCREW_NOT_IN_CATALOGUE": (
+        {
+            "en": "the catalogue has no screw of {diameter_mm:g} x {length_mm:g} mm",
+            "de": "der Katalog hat keine Schraube von {diameter_mm:g} x {length_mm:g} mm",
+        },
+    ),
 }

@@ -182,4 +182,38 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
             "de": "Spitze und Achse von „{tool}“ sind nicht definiert",
         },
     ),
+    "TIME_OFFSET_AT_SEARCH_LIMIT": (
+        {
+            "en": "the correlation still increases at {offset_s:+.2f} s, where the search ends",
+            "de": "die Korrelation steigt bei {offset_s:+.2f} s noch, wo die Suche endet",
+        },
+    ),
+    "TIME_OFFSET_CHANGES": (
+        {
+            "en": "the offset changes by {change_ms:+.1f} ms from the first half of the recording to "
+            "the second, allowed {allowed_ms:.1f} ms",
+            "de": "der Zeitversatz ändert sich um {change_ms:+.1f} ms von der ersten zur zweiten "
+            "Hälfte der Aufnahme, erlaubt {allowed_ms:.1f} ms",
+        },
+    ),
+    "TIME_OFFSET_MOTIONS_DIFFER": (
+        {
+            "en": "the rates of both sources correlate by {correlation_ratio:.3f} at best (at "
+            "{offset_s:+.2f} s), needed {min_correlation_ratio:g}",
+            "de": "die Geschwindigkeiten beider Quellen korrelieren bestenfalls mit "
+            "{correlation_ratio:.3f} (bei {offset_s:+.2f} s), nötig {min_correlation_ratio:g}",
+        },
+    ),
+    "TIME_OFFSET_RATE_LOW": (
+        {
+            "en": "{source} has {rate_hz:.1f} poses per second, needed {min_rate_hz:g}",
+            "de": "{source} hat {rate_hz:.1f} Lagen je Sekunde, nötig {min_rate_hz:g}",
+        },
+    ),
+    "TIME_OFFSET_TOO_FEW_SAMPLES": (
+        {
+            "en": "{source} has {samples} different poses in intervals without a gap, needed {min_samples}",
+            "de": "{source} hat {samples} verschiedene Lagen in Abschnitten ohne Lücke, nötig {min_samples}",
+        },
+    ),
 }

@@ -105,4 +105,12 @@ CASES: tuple[Text, ...] = (
         "de": "Exportieren Sie die Serie neu, unkomprimiert oder verlustfrei mit JPEG 2000, JPEG-LS, JPEG "
         "oder RLE.",
     },
+    {
+        "en": "Put what is large into a file of the case, and its name into the document.",
+        "de": "Legen Sie Großes in eine Datei des Falls und deren Namen in das Dokument.",
+    },
+    {
+        "en": "Give a suffix such as .npy or .nii.gz, of lower-case letters and digits.",
+        "de": "Geben Sie eine Endung wie .npy oder .nii.gz an, aus Kleinbuchstaben und Ziffern.",
+    },
 )

@@ -330,4 +330,18 @@ PROCEDURE: tuple[Text, ...] = (
         "de": "Prüfen Sie Eintritts- und Zielpunkt des Kanals: ein Kanal durch einen Pedikel ist "
         "25 bis 75 mm lang.",
     },
+    {
+        "en": "Choose a diameter of {diameters} and a length of {lengths} mm, or add this size "
+        "under plan in the settings.",
+        "de": "Wählen Sie einen Durchmesser von {diameters} und eine Länge von {lengths} mm, oder "
+        "nehmen Sie diese Größe in den Einstellungen unter plan auf.",
+    },
+    {
+        "en": "Export the bone surface again as triangles, or state the format.",
+        "de": "Exportieren Sie die Knochenoberfläche neu als Dreiecke, oder geben Sie das Format an.",
+    },
+    {
+        "en": "The action took effect and writing is retried; check the disk.",
+        "de": "Die Aktion ist wirksam, und das Schreiben wird wiederholt; prüfen Sie die Platte.",
+    },
 )

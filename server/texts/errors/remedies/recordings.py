@@ -48,4 +48,12 @@ RECORDINGS: tuple[Text, ...] = (
         "de": "Neu exportieren; ein neues Video oder ein neuer Teil ersetzt den vorigen.",
     },
     {"en": "Choose a recording with images.", "de": "Eine Aufnahme mit Bildern wählen."},
+    {
+        "en": "Replay it with the version of Coaxial that recorded it.",
+        "de": "Spielen Sie sie mit der Version von Coaxial ab, die sie aufnahm.",
+    },
+    {
+        "en": "Review the recording with the version of Coaxial that recorded it.",
+        "de": "Sehen Sie die Aufnahme mit der Version von Coaxial durch, die sie aufnahm.",
+    },
 )

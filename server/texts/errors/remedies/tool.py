@@ -93,4 +93,27 @@ TOOL: tuple[Text, ...] = (
     },
     {"en": "Use a shape without rotational symmetry.", "de": "Verwenden Sie eine Form ohne Drehsymmetrie."},
     {"en": "Give each marker a unique name.", "de": "Geben Sie jedem Marker einen eigenen Namen."},
+    {
+        "en": "Record longer, and keep the tool in view.",
+        "de": "Nehmen Sie länger auf, und halten Sie das Instrument im Bild.",
+    },
+    {
+        "en": "Record at a higher rate, so that the motion of a hand is resolved.",
+        "de": "Nehmen Sie mit höherer Rate auf, damit die Bewegung einer Hand aufgelöst wird.",
+    },
+    {
+        "en": "Check that both sources track one rigid tool (the same point where translations are "
+        "compared), and that the offset lies within the search range.",
+        "de": "Prüfen Sie, dass beide Quellen ein starres Instrument verfolgen (denselben Punkt, "
+        "wo Translationen verglichen werden), und dass der Zeitversatz im Suchbereich liegt.",
+    },
+    {
+        "en": "Increase the search range, or start both clocks closer together.",
+        "de": "Vergrößern Sie den Suchbereich, oder starten Sie beide Uhren näher beieinander.",
+    },
+    {
+        "en": "Check that both clocks count real time: no images timed by a nominal rate, and none lost.",
+        "de": "Prüfen Sie, dass beide Uhren echte Zeit zählen: keine Bilder mit nomineller Rate, "
+        "keine verlorenen.",
+    },
 )
