@@ -199,4 +199,16 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "{focal_sd_percent:.1f} %, erlaubt {allowed_percent:.0f} %",
         },
     ),
+    "PHONE_WITHOUT_SERVER": (
+        {
+            "en": "the source 'phone' needs a running server",
+            "de": "die Quelle „phone“ braucht einen laufenden Server",
+        },
+    ),
+    "REHEARSAL_WITHOUT_THEATRE": (
+        {
+            "en": "the rehearsal was requested, but its theatre was not built",
+            "de": "der Probebetrieb wurde verlangt, sein Operationssaal aber nicht erzeugt",
+        },
+    ),
 }

@@ -272,4 +272,24 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "de": "„{suffix}“ ist keine gültige Dateiendung",
         },
     ),
+    "DEPENDS_ON_IDENTITY": (
+        {
+            "en": "a document must not depend on the patient's identity, because that is not exported",
+            "de": "ein Dokument darf nicht auf der Identität des Patienten beruhen, weil diese nicht "
+            "exportiert wird",
+        },
+    ),
+    "HOME_IN_USE": (
+        {
+            "en": "another Coaxial is running with the folder {folder}, which only one may use at a time",
+            "de": "ein anderes Coaxial läuft mit dem Ordner {folder}, den nur eines zur Zeit verwenden darf",
+        },
+    ),
+    "IDENTITY_WITH_FILES": (
+        {
+            "en": "the document of the patient's identity must not have files, because files are exported",
+            "de": "das Dokument mit der Identität des Patienten darf keine Dateien haben, weil Dateien "
+            "exportiert werden",
+        },
+    ),
 }

@@ -595,4 +595,32 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "de": "der Katalog hat keine Schraube von {diameter_mm:g} x {length_mm:g} mm",
         },
     ),
+    "CHANNEL_DIRECTION_UNKNOWN": (
+        {
+            "en": "the line in {file} runs {forward_mm:.1f} mm anteriorly from its first point to its "
+            "second; the first point counts as the entry from {min_forward_mm:g} mm on",
+            "de": "die Linie in {file} verläuft vom ersten zum zweiten Punkt {forward_mm:.1f} mm nach "
+            "vorn; ab {min_forward_mm:g} mm gilt der erste Punkt als Eintritt",
+        },
+    ),
+    "LANDMARKS_UNNAMED": (
+        {
+            "en": "{file} has {unnamed} points without a label, the first is point {first}",
+            "de": "{file} hat {unnamed} Punkte ohne Bezeichnung, der erste ist Punkt {first}",
+        },
+    ),
+    "REGION_INVALID": (
+        {
+            "en": "the region from {low} to {high} mm is not a box, each side must be above 0 mm",
+            "de": "der Bereich von {low} bis {high} mm ist kein Quader, jede Seite muss über 0 mm lang sein",
+        },
+    ),
+    "REGION_OUTSIDE": (
+        {
+            "en": "the region from {low} to {high} mm lies outside of the CT, which reaches from "
+            "{ct_low} to {ct_high} mm",
+            "de": "der Bereich von {low} bis {high} mm liegt außerhalb des CT, das von {ct_low} bis "
+            "{ct_high} mm reicht",
+        },
+    ),
 }

@@ -155,4 +155,13 @@ CAMERA: tuple[Text, ...] = (
         "en": "Set the camera to a smaller size, at most 7680x4320 px.",
         "de": "Stellen Sie die Kamera auf eine kleinere Größe, höchstens 7680x4320 px.",
     },
+    {
+        "en": "Start it with coaxial run --source phone.",
+        "de": "Starten Sie sie mit coaxial run --source phone.",
+    },
+    {
+        "en": "Restart the program; if the error persists, send the server log to the maintainer.",
+        "de": "Starten Sie das Programm neu; bleibt der Fehler, senden Sie das Protokoll des "
+        "Servers an die Betreuung.",
+    },
 )

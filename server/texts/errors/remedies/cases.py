@@ -113,4 +113,13 @@ CASES: tuple[Text, ...] = (
         "en": "Give a suffix such as .npy or .nii.gz, of lower-case letters and digits.",
         "de": "Geben Sie eine Endung wie .npy oder .nii.gz an, aus Kleinbuchstaben und Ziffern.",
     },
+    {"en": "Attach the file to another document.", "de": "Hängen Sie die Datei an ein anderes Dokument."},
+    {
+        "en": "Remove it from the dependencies of the document.",
+        "de": "Entfernen Sie sie aus den Abhängigkeiten des Dokuments.",
+    },
+    {
+        "en": "Stop the other one, or set COAXIAL_HOME to another folder.",
+        "de": "Beenden Sie das andere, oder setzen Sie COAXIAL_HOME auf einen anderen Ordner.",
+    },
 )

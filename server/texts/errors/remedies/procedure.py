@@ -344,4 +344,22 @@ PROCEDURE: tuple[Text, ...] = (
         "en": "The action took effect and writing is retried; check the disk.",
         "de": "Die Aktion ist wirksam, und das Schreiben wird wiederholt; prüfen Sie die Platte.",
     },
+    {
+        "en": "Give each control point the name of its landmark in 3D Slicer.",
+        "de": "Geben Sie jedem Kontrollpunkt in 3D Slicer den Namen seiner Landmarke.",
+    },
+    {
+        "en": "Label the two control points '{entry_label}' and '{target_label}' in 3D Slicer, or "
+        "place the entry first.",
+        "de": "Bezeichnen Sie die beiden Kontrollpunkte in 3D Slicer mit „{entry_label}“ und "
+        "„{target_label}“, oder setzen Sie den Eintritt zuerst.",
+    },
+    {
+        "en": "Give the corner with the smallest left, posterior and superior coordinates first.",
+        "de": "Geben Sie zuerst die Ecke mit den kleinsten Koordinaten nach links, hinten und oben an.",
+    },
+    {
+        "en": "Give a region inside of the CT, in its own coordinates (LPS).",
+        "de": "Geben Sie einen Bereich im CT an, in dessen Koordinaten (LPS).",
+    },
 )
