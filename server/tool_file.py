@@ -152,7 +152,13 @@ def _reject_another_marker(file: ToolFile, tool: ToolConfig, marker: MarkerConfi
         f"{tool.calibration} was made with marker '{file.marker}' of {file.side_mm:g} mm, "
         f"but the tool has '{tool.marker}' of {side_mm:g} mm",
         "Calibrate the tool with its present marker; a tip is never scaled.",
-        {"file": str(tool.calibration), "marker": file.marker, "side_mm": file.side_mm},
+        {
+            "file": str(tool.calibration),
+            "marker": file.marker,
+            "side_mm": file.side_mm,
+            "tool_marker": tool.marker,
+            "tool_side_mm": side_mm,
+        },
     )
 
 

@@ -139,6 +139,7 @@ class StoredAlarmLog:
             "ALARM_NOT_LOGGED",
             f"the action could not be written to the alarm log within {FLUSH_TIMEOUT_S:g} s",
             "The action took effect and writing is retried; check the disk.",
+            {"timeout_s": FLUSH_TIMEOUT_S},
         )
 
     def newest(self, count: int) -> list[Line]:

@@ -189,7 +189,7 @@ def recording_review_router(review: RecordingReview, comments: RecordingComments
                 f"the results of image {number} cannot be read: {error.error_count()} values have an unknown "
                 "format",
                 "Review the recording with the version of Coaxial that recorded it.",
-                {"name": name},
+                {"name": name, "image": number, "unknown": error.error_count()},
             ) from None
 
     return router

@@ -26,7 +26,14 @@ def reject_beyond(beyond: int, voxels: int) -> None:
         f"{beyond} of {voxels} voxels ({beyond / voxels:.0%}) are outside {MIN_HU} to {MAX_HU} HU, the "
         f"maximum is {MAX_BEYOND_RATIO:.0%}: slope or intercept is wrong",
         "Export the original CT series again, in Hounsfield units.",
-        {"beyond": beyond, "voxels": voxels, "max_ratio": MAX_BEYOND_RATIO},
+        {
+            "beyond": beyond,
+            "voxels": voxels,
+            "max_ratio": MAX_BEYOND_RATIO,
+            "beyond_ratio": float(beyond / voxels),
+            "min_hu": MIN_HU,
+            "max_hu": MAX_HU,
+        },
     )
 
 

@@ -39,7 +39,15 @@ def check_voxels(shape: tuple[int, int, int]) -> None:
             f"the CT has {shape[2]} x {shape[1]} x {shape[0]} voxels, {voxels / 1e6:.0f} million, the "
             f"maximum is {MAX_VOXELS / 1e6:.0f} million",
             "Export only the part around the vertebrae, or a series with fewer pixels.",
-            {"voxels": voxels, "max_voxels": MAX_VOXELS},
+            {
+                "voxels": voxels,
+                "max_voxels": MAX_VOXELS,
+                "columns": int(shape[2]),
+                "rows": int(shape[1]),
+                "slices": int(shape[0]),
+                "million": voxels / 1e6,
+                "max_million": MAX_VOXELS / 1e6,
+            },
         )
 
 

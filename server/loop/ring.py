@@ -101,7 +101,11 @@ class ImageRing:
                 f"an image has {'x'.join(map(str, image.shape[1::-1]))} px and {image.nbytes} bytes, "
                 f"the maximum is {self._image_bytes} bytes",
                 "Set the camera to a smaller size, at most 7680x4320 px.",
-                {"bytes": image.nbytes, "limit_bytes": self._image_bytes},
+                {
+                    "bytes": image.nbytes,
+                    "limit_bytes": self._image_bytes,
+                    "size": "x".join(map(str, image.shape[1::-1])),
+                },
             )
         self._sequence += 1
         slot = self._sequence % self._slots

@@ -48,7 +48,12 @@ class CollectingStep(Generic[Collection]):
         """
         with self._collection_lock:
             if self._collection is None:
-                raise SetupOrderError("COLLECTION_MISSING", f"no {self._what} in progress", self._remedy)
+                raise SetupOrderError(
+                    "COLLECTION_MISSING",
+                    f"no {self._what} in progress",
+                    self._remedy,
+                    {"collection": self._what},
+                )
             return self._collection
 
     @property

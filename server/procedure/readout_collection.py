@@ -144,6 +144,7 @@ class ReadoutCollection:
                             "images": len(self._images),
                             "pause_s": round(at_s - last_s, 2),
                             "max_pause_s": MAX_PAUSE_S,
+                            "later_s": at_s - last_s,
                         },
                     )
             self._images.append((at_s, grey.copy()))

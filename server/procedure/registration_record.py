@@ -209,7 +209,12 @@ def registration_from_document(document: Document, *, reference: str) -> Registr
             f"{document.title} is anchored to the marker '{record.reference}', "
             f"but reference.marker in the settings {now}",
             "Set reference.marker to the marker on the patient, or register again.",
-            {"registered": record.reference, "reference": reference},
+            {
+                "registered": record.reference,
+                "reference": reference,
+                "title": document.title,
+                "reference_setting": now,
+            },
         )
     return record
 

@@ -194,7 +194,7 @@ class RecordingWriter:
                 f"all recordings together would exceed recording.max_total_gb with this one, which has "
                 f"{self._file.written / 1e9:.2f} GB",
                 "Delete recordings that are not needed, or raise recording.max_total_gb; then start again.",
-                {"written_bytes": self._file.written},
+                {"written_bytes": self._file.written, "written_gb": self._file.written / 1e9},
             )
         free_bytes = self._free_bytes(self._path.parent)
         if free_bytes < self._limits.min_free_bytes:
@@ -203,7 +203,11 @@ class RecordingWriter:
                 f"{free_bytes / 1e9:.2f} GB are free on the disk of the cases, and "
                 f"{self._limits.min_free_bytes / 1e9:.2f} GB must stay free (recording.min_free_gb)",
                 "Free disk space, then start the recording again. Navigation continues.",
-                {"free_bytes": free_bytes, "free_gb": free_bytes / 1000000000.0},
+                {
+                    "free_bytes": free_bytes,
+                    "free_gb": free_bytes / 1e9,
+                    "min_free_gb": self._limits.min_free_bytes / 1e9,
+                },
             )
 
 

@@ -62,7 +62,7 @@ def landmarks_from_markups(markups: Sequence[Markup], *, name: str) -> tuple[Lan
             "LANDMARKS_UNNAMED",
             f"{name} has {len(unnamed)} points without a label, the first is point {unnamed[0]}",
             "Give each control point the name of its landmark in 3D Slicer.",
-            {"file": name, "unnamed": len(unnamed)},
+            {"file": name, "unnamed": len(unnamed), "first": unnamed[0]},
         )
     return tuple(
         Landmark(name=label.strip(), point_lps_mm=point)
@@ -91,7 +91,13 @@ def line_from_markups(markups: Sequence[Markup], *, name: str) -> tuple[Array, A
             f"the line in {name} runs {forward_mm:.1f} mm anteriorly from its first point to its second; the "
             f"first point counts as the entry from {MIN_FORWARD_MM:g} mm on",
             f"Label the two control points '{ENTRY}' and '{TARGET}' in 3D Slicer, or place the entry first.",
-            {"file": name, "forward_mm": forward_mm},
+            {
+                "file": name,
+                "forward_mm": forward_mm,
+                "min_forward_mm": MIN_FORWARD_MM,
+                "entry_label": ENTRY,
+                "target_label": TARGET,
+            },
         )
     return first, second
 

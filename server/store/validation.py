@@ -76,7 +76,12 @@ def content_to_json(content: Mapping[str, object]) -> str:
             "CONTENT_TOO_LARGE",
             f"the document has {size / 2**20:.1f} MB, the maximum is {MAX_CONTENT_BYTES / 2**20:g} MB",
             "Put what is large into a file of the case, and its name into the document.",
-            {"size_bytes": size, "allowed_bytes": MAX_CONTENT_BYTES},
+            {
+                "size_bytes": size,
+                "allowed_bytes": MAX_CONTENT_BYTES,
+                "size_mb": size / 2**20,
+                "max_mb": MAX_CONTENT_BYTES / 2**20,
+            },
         )
     return text
 

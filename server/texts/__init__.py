@@ -11,7 +11,7 @@ states.py       reasons for missing figures
 places.py       walls and directions
 reason.py       a reason: its code, its values, and its sentences in all languages
 steps.py        reasons of the steps of the procedure and of documents that are out of date, by code
-errors/         translations of errors by code, a module an area, and of their remedies
+errors/         translations of errors by code, a module an area, of their remedies, and of phrases in them
 
 A message that all viewers share (headline, alarms, problems of camera and tracking) has all languages; an
 answer to a request has the language of the request. A value is formatted by the template of each language
@@ -19,7 +19,7 @@ with the same format, so that its digits are the same. Texts that a person typed
 another program reported are not translated.
 
 An error is raised in English. To translate one, add its template to the module of its area and its remedy to
-`errors/remedies.py`, and give the error its values by name in `context`. Errors without German stay English;
+`errors/remedies`, and give the error its values by name in `context`. Errors without German stay English;
 `tests/server/texts/test_error_texts.py` counts them, and the number may only fall.
 """
 

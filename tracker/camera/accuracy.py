@@ -92,7 +92,7 @@ def accuracy_on_plane(
             "ACCURACY_NOT_INDEPENDENT",
             f"{shared} of the {on_plane.shape[0]} points that the plane is fitted to are measured too",
             "Fit the plane to other points than those that are measured.",
-            {"shared_points": shared},
+            {"shared_points": shared, "points": on_plane.shape[0]},
         )
     plane, rms_px = _fitted(camera, on_plane, seen)
     first, second = (_on_plane(camera, plane, px) for px in (displacements.first_px, displacements.second_px))

@@ -88,7 +88,7 @@ class CameraModel:
                 f"the camera file lacks {', '.join(missing)}",
                 "A camera file has matrix (3 rows of 3), distortion (4, 5, 8, 12 or 14 numbers) "
                 "and size_wh_px (width, height).",
-                {"missing": missing},
+                {"missing": missing, "keys": ", ".join(missing)},
             )
         try:
             matrix = np.asarray(values["matrix"], dtype=np.float64)
@@ -125,7 +125,14 @@ class CameraModel:
                 f"a camera of {width_before}x{height_before} px cannot be scaled to {width}x{height} px, "
                 "which has another ratio of width to height",
                 "Calibrate the camera at that size.",
-                {"size_wh_px": [width, height], "calibrated_size_wh_px": [width_before, height_before]},
+                {
+                    "size_wh_px": [width, height],
+                    "calibrated_size_wh_px": [width_before, height_before],
+                    "width_before": width_before,
+                    "height_before": height_before,
+                    "width": width,
+                    "height": height,
+                },
             )
         scale = width / width_before
         matrix = self.matrix.copy()

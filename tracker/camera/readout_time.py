@@ -122,7 +122,7 @@ def estimate_readout(views: Sequence[TimedView], camera: CameraModel) -> Readout
             f"{1000.0 * MAX_GAP_S:.0f} ms, needed {MIN_IMAGES}",
             "Move the board a little slower or use more light, so that it is sharp, and keep all of it in "
             "the picture.",
-            {"images": len(burst), "min_images": MIN_IMAGES},
+            {"images": len(burst), "min_images": MIN_IMAGES, "gap_ms": 1000.0 * MAX_GAP_S},
         )
     images = list(burst.values())
     estimate = _estimate(images, readout_s)

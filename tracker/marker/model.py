@@ -68,7 +68,7 @@ class MarkerModel:
                 "MARKER_SIDE_INVALID",
                 f"the side of marker '{name}' is {side_mm} mm, needed above 0 mm",
                 "Measure the outer side of the printed black square in mm.",
-                {"name": name, "side_mm": float(side_mm)},
+                {"name": name, "side_mm": float(side_mm), "marker": name},
             )
         square = _working_image(grey.astype(np.uint8))
         _reject_symmetry(square, name)
@@ -150,6 +150,7 @@ def reject_similar(models: Sequence[MarkerModel]) -> None:
             "MARKER_NAMES_NOT_UNIQUE",
             f"{len(names)} markers have {len(set(names))} names: {', '.join(sorted(names))}",
             "Give each marker a unique name.",
+            {"markers": len(names), "different": len(set(names)), "names": ", ".join(sorted(names))},
         )
     small = [_small(model.square) for model in models]
     for (a, first), (b, second) in combinations(enumerate(small), 2):
@@ -160,7 +161,11 @@ def reject_similar(models: Sequence[MarkerModel]) -> None:
                 f"markers '{names[a]}' and '{names[b]}' look the same, however they are turned: "
                 f"correlation {correlation:.3f}, allowed {MAX_SIMILARITY}",
                 "Use shapes that differ; 'coaxial marker design' with another seed makes another.",
-                {"names": [names[a], names[b]], "correlation": correlation},
+                {
+                    "names": [names[a], names[b]],
+                    "correlation": correlation,
+                    "max_correlation": MAX_SIMILARITY,
+                },
             )
 
 
@@ -181,7 +186,12 @@ def reject_mirror_symmetric(models: Iterable[MarkerModel]) -> None:
                 f"marker '{model.name}' is its own mirror image: correlation {correlation:.3f}, allowed "
                 f"{MAX_SYMMETRY}; its reflection in steel would be detected as the marker, at a wrong pose",
                 "Use a shape that differs from its mirror image; 'coaxial marker design' makes one.",
-                {"name": model.name, "correlation": correlation},
+                {
+                    "name": model.name,
+                    "correlation": correlation,
+                    "marker": model.name,
+                    "max_correlation": MAX_SYMMETRY,
+                },
             )
 
 
@@ -206,5 +216,11 @@ def _reject_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
                 f"marker '{name}' looks the same when rotated by {90 * turns} degrees: "
                 f"correlation {correlation:.3f}, allowed {MAX_SYMMETRY}",
                 "Use a shape without rotational symmetry.",
-                {"name": name, "turned_deg": 90 * turns, "correlation": correlation},
+                {
+                    "name": name,
+                    "turned_deg": 90 * turns,
+                    "correlation": correlation,
+                    "marker": name,
+                    "max_correlation": MAX_SYMMETRY,
+                },
             )

@@ -289,5 +289,5 @@ def _reject_readout(readout_s: float) -> None:
             "READOUT_INVALID",
             f"reading an image row by row would take {readout_s * 1e3:g} ms",
             f"Give the value of its data sheet, 0 (a global shutter) to {MAX_READOUT_S * 1e3:g} ms.",
-            {"readout_ms": readout_s * 1e3},
+            {"readout_ms": readout_s * 1e3, "max_ms": MAX_READOUT_S * 1000.0},
         )

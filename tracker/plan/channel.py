@@ -41,7 +41,7 @@ class Channel:
                 f"channel '{self.name}' is {length:.2f} mm long with radius {self.radius_mm:.2f} mm, "
                 "needed at least 1 mm and above 0 mm",
                 "Set entry point, target and diameter of the channel again.",
-                {"length_mm": length, "radius_mm": self.radius_mm},
+                {"length_mm": length, "radius_mm": self.radius_mm, "channel": self.name},
             )
 
     @property

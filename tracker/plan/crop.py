@@ -40,7 +40,11 @@ def cropped_around(volume: Volume, points_lps_mm: npt.ArrayLike, *, max_bytes: i
             f"around the channels the CT has only {' x '.join(str(n) for n in end - first + 1)} voxels, "
             "needed 2 along each axis",
             "Plan the channels on this CT again.",
-            {"low_lps_mm": low.tolist(), "high_lps_mm": high.tolist()},
+            {
+                "low_lps_mm": low.tolist(),
+                "high_lps_mm": high.tolist(),
+                "voxels": " x ".join(str(n) for n in end - first + 1),
+            },
         )
     rows, columns = slice(first[1], end[1] + 1), slice(first[0], end[0] + 1)
     # Slice by slice, because one large copy would block the interpreter and delay the navigation.

@@ -35,7 +35,7 @@ class Landmark:
                 f"landmark '{self.name[:40]}' has a place of shape {point.shape}, needed a name and three "
                 "finite numbers",
                 "Give it a name and set it on the CT in LPS mm.",
-                {"name": self.name[:40]},
+                {"name": self.name[:40], "shape": point.shape},
             )
         point.setflags(write=False)
         object.__setattr__(self, "point_lps_mm", point)
@@ -55,7 +55,12 @@ def reject_duplicate_names(landmarks: Sequence[Landmark]) -> None:
             f"{len(landmarks)} landmarks have only {len(set(names))} different names; "
             f"'{twice[0][:40]}' is there {names.count(twice[0])} times",
             "Give each landmark its own name.",
-            {"name": twice[0][:40]},
+            {
+                "name": twice[0][:40],
+                "landmarks": len(landmarks),
+                "different": len(set(names)),
+                "times": names.count(twice[0]),
+            },
         )
 
 
@@ -72,5 +77,5 @@ def reject_landmarks_outside(landmarks: Sequence[Landmark], volume: Volume) -> N
                 "LANDMARK_OUTSIDE_CT",
                 f"landmark '{one.name[:40]}' was set at ({formatted}) mm, which is not within the CT",
                 "Set it on this CT, in LPS mm.",
-                {"name": one.name[:40], "point_lps_mm": one.point_lps_mm.tolist()},
+                {"name": one.name[:40], "point_lps_mm": one.point_lps_mm.tolist(), "point": formatted},
             )

@@ -82,6 +82,7 @@ def propose_middle(measures: Sequence[PedicleMeasure]) -> Array:
             "MIDDLE_UNKNOWN",
             f"{len(by_side)} pedicle is measured, the middle lies between 2",
             "Measure the other pedicle too, or give the middle by hand.",
+            {"pedicles": len(by_side)},
         )
     return np.asarray(0.5 * (by_side["left"] + by_side["right"]))
 
@@ -105,7 +106,7 @@ def draw_reference(
             "SLICE_OUTSIDE_CT",
             f"slice {slice_index} was requested, the CT has {slices} (0 to {slices - 1})",
             "Choose a slice of this CT.",
-            {"slice_index": slice_index, "slices": slices},
+            {"slice_index": slice_index, "slices": slices, "last": slices - 1},
         )
     middle = np.asarray(middle_lps_mm, dtype=np.float64).reshape(3)
     if not (np.isfinite(middle).all() and MIN_APART_MM <= apart_mm <= 100.0):
@@ -113,7 +114,7 @@ def draw_reference(
             "LINES_INVALID",
             f"the outer lines stand {apart_mm} mm from the middle, allowed are {MIN_APART_MM:.0f} to 100 mm",
             "Give the middle in LPS mm and the measured distance of the lines.",
-            {"apart_mm": apart_mm},
+            {"apart_mm": apart_mm, "min_mm": MIN_APART_MM},
         )
     plane = _Plane(volume, slice_index)
     down = plane.along_rows
@@ -127,7 +128,7 @@ def draw_reference(
             "MIDDLE_OUTSIDE_CT",
             f"the middle line was set through ({formatted}) mm, not on slice {slice_index} of the CT",
             "Set it through a point of this slice, in LPS mm.",
-            {"middle_lps_mm": middle.tolist(), "slice_index": slice_index},
+            {"middle_lps_mm": middle.tolist(), "slice_index": slice_index, "middle": formatted},
         )
     lines = tuple(
         plane.line(

@@ -45,7 +45,7 @@ def _check_geometry(frames: list[Frame]) -> None:
                 "CT_GEOMETRY_MISSING",
                 f"{sum(missing)} of {len(frames)} slices do not state their {attribute}",
                 "Export the series again with its geometry; pictures of slices are not usable for planning.",
-                {"slices": sum(missing), "of": len(frames)},
+                {"slices": sum(missing), "of": len(frames), "attribute": attribute},
             )
     sizes = _counted(f"{frame.shared.size_wh_px[0]} x {frame.shared.size_wh_px[1]}" for frame in frames)
     if len(sizes) > 1:
@@ -71,7 +71,15 @@ def _check_geometry(frames: list[Frame]) -> None:
             f"the slices are declared as {columns} x {rows} pixels of {minimum:g} to {maximum:g} mm, "
             f"allowed: 2 to {MAX_SIDE_PX} pixels per side of {MIN_PIXEL_MM} to {MAX_PIXEL_MM:.0f} mm",
             EXPORT_AGAIN,
-            {"columns": columns, "rows": rows, "min_mm": minimum, "max_mm": maximum},
+            {
+                "columns": columns,
+                "rows": rows,
+                "min_mm": minimum,
+                "max_mm": maximum,
+                "max_side_px": MAX_SIDE_PX,
+                "min_pixel_mm": MIN_PIXEL_MM,
+                "max_pixel_mm": MAX_PIXEL_MM,
+            },
         )
     check_voxels((len(frames), rows, columns))
     spaces = {frame.shared.frame_of_reference for frame in frames} - {""}

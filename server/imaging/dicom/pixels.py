@@ -38,7 +38,7 @@ def check_readable(shared: FileAttributes) -> None:
             "CT_COMPRESSION_UNKNOWN",
             f"the slices are compressed as {syntax.name} with {stored} bits, which cannot be read here",
             UNCOMPRESSED,
-            {"transfer_syntax": shared.compression, "bits": stored},
+            {"transfer_syntax": shared.compression, "bits": stored, "syntax": syntax.name},
         )
     if shared.frames == 1 and shared.entry.size > MAX_SLICE_BYTES:
         raise InvalidInput(
@@ -46,7 +46,12 @@ def check_readable(shared: FileAttributes) -> None:
             f"the file of a slice has {shared.entry.size / 2**20:.0f} MiB, the maximum is "
             f"{MAX_SLICE_BYTES / 2**20:.0f} MiB",
             UNCOMPRESSED,
-            {"bytes": shared.entry.size, "max_bytes": MAX_SLICE_BYTES},
+            {
+                "bytes": shared.entry.size,
+                "max_bytes": MAX_SLICE_BYTES,
+                "size_mib": shared.entry.size / 2**20,
+                "max_mib": MAX_SLICE_BYTES / 2**20,
+            },
         )
     if allocated not in {8, 16, 32} or not 1 <= stored <= allocated or high != stored - 1:
         raise InvalidInput(
@@ -159,7 +164,7 @@ def _damaged(shared: FileAttributes) -> InvalidInput:
         "CT_SLICE_DAMAGED",
         f"a slice of {shared.entry.size} bytes cannot be decoded ({UID(shared.compression).name})",
         SEND_AGAIN,
-        {"bytes": shared.entry.size},
+        {"bytes": shared.entry.size, "compression": UID(shared.compression).name},
     )
 
 

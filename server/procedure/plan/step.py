@@ -276,7 +276,12 @@ class PlanStep:
                 f"the catalogue has no screw of {size_mm[0]:g} x {size_mm[1]:g} mm",
                 f"Choose a diameter of {_reported(catalogue.diameters_mm)} and a length of "
                 f"{_reported(catalogue.lengths_mm)} mm, or add this size under plan in the settings.",
-                {"diameter_mm": size_mm[0], "length_mm": size_mm[1]},
+                {
+                    "diameter_mm": size_mm[0],
+                    "length_mm": size_mm[1],
+                    "diameters": _reported(catalogue.diameters_mm),
+                    "lengths": _reported(catalogue.lengths_mm),
+                },
             )
 
 

@@ -147,11 +147,12 @@ def tip_of(snapshot: NavigationSnapshot, name: str, reference: str) -> TipSample
         )
     tool = setup.tools.get(name)
     if tool is None:
+        tools = ", ".join(sorted(setup.tools)) or "none"
         raise InvalidInput(
             "TOOL_UNKNOWN",
             f"there is no tool '{name}' in use",
-            f"Available tools: {', '.join(sorted(setup.tools)) or 'none'}. Calibrate tip and axis first.",
-            {"tool": name},
+            f"Available tools: {tools}. Calibrate tip and axis first.",
+            {"tool": name, "tools": tools},
         )
     # The unfiltered pose, because the samples are averaged anyway, and a motion must remain visible.
     sighting = snapshot.sightings[tool.marker]

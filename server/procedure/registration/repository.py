@@ -68,7 +68,7 @@ class RegistrationRepository:
                 "REGISTER_MISSING",
                 f"{name or 'the vertebra of the active channel'} is not registered",
                 "Register by touching the landmarks of the plan.",
-                {"vertebra": name},
+                {"vertebra": name, "unregistered": name or "the vertebra of the active channel"},
             )
         return StoredRegistration(
             record=registration_from_document(document, reference=self._defaults.reference),

@@ -169,6 +169,11 @@ class SweepStep(CollectingStep[SweepSession]):
                 f"{start.document.title} is anchored to the {start.record.anchored_to}, but a sweep would be "
                 f"anchored to the {context.anchored_to}",
                 "Register by points again, then sweep.",
+                {
+                    "title": start.document.title,
+                    "start_anchor": str(start.record.anchored_to),
+                    "sweep_anchor": str(context.anchored_to),
+                },
             )
         return self._start(lambda: SweepSession(self._hub, context, start))
 

@@ -3,12 +3,14 @@
 An error is raised with its code, its message and remedy in English, and its values by name (`context`). The
 catalogue has the template of that message in all languages. It is used only where the English template with
 the values of the error gives exactly the message that was raised: a translation therefore has the same
-numbers, and an error that was reworded without its translation stays English.
+numbers, and an error that was reworded without its translation stays English. A value may be a phrase
+(`phrases.py`), a part of a message that depends on the case; it is found in the same way.
 """
 
 from collections.abc import Iterator, Mapping
 
 from server.texts.errors.catalogue import MESSAGES, REMEDIES
+from server.texts.errors.phrases import PHRASES
 from server.texts.language import Text
 from server.texts.reason import Reason, as_is, filled
 from server.texts.steps import KINDS, METHODS, STEPS
@@ -33,12 +35,26 @@ def reason_of_error(error: NavigationError) -> Reason:
 
 def error_reason(code: str, message: str, remedy: str, context: Mapping[str, object]) -> Reason:
     """Return the parts of an error as a reason in all languages, in English where it has no translation."""
-    values = {name: _word(name, value) for name, value in context.items()}
+    values = _values(context)
     translated_message = _translation(message, MESSAGES.get(code, ()), values)
     translated_remedy = _translation(remedy, REMEDIES, values)
     if translated_message is None or translated_remedy is None:
         return Reason(code=code, message=as_is(message), remedy=as_is(remedy), is_translated=False)
     return Reason(code=code, message=translated_message, remedy=translated_remedy)
+
+
+def _values(context: Mapping[str, object]) -> Mapping[str, object]:
+    """Return the values of an error with those that are phrases in all languages."""
+    values = {name: _word(name, value) for name, value in context.items()}
+    for name, templates in PHRASES.items():
+        if isinstance(english := context.get(name), str):
+            phrase = _translation(english, templates, values)
+            if phrase is None:
+                # Without it no template fits: a German sentence must not have an English part.
+                del values[name]
+            else:
+                values[name] = phrase
+    return values
 
 
 def _word(name: str, value: object) -> object:

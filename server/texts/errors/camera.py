@@ -104,4 +104,111 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "die Hälfte",
         },
     ),
+    "ACCURACY_NOT_INDEPENDENT": (
+        {
+            "en": "{shared_points} of the {points} points that the plane is fitted to are measured too",
+            "de": "{shared_points} der {points} Punkte, an die die Ebene angepasst wird, werden auch "
+            "gemessen",
+        },
+    ),
+    "CAMERA_ASPECT_DIFFERS": (
+        {
+            "en": "a camera of {width_before}x{height_before} px cannot be scaled to {width}x{height} "
+            "px, which has another ratio of width to height",
+            "de": "eine Kamera mit {width_before}x{height_before} px kann nicht auf {width}x{height} "
+            "px skaliert werden, das Seitenverhältnis ist ein anderes",
+        },
+    ),
+    "CAMERA_FILE_INCOMPLETE": ({"en": "the camera file lacks {keys}", "de": "der Kameradatei fehlt {keys}"},),
+    "CAMERA_SIZE_MISMATCH": (
+        {
+            "en": "images of the board are {width}x{height} px, but the camera was calibrated at "
+            "{width_before}x{height_before} px, and the readout time is stored for that size",
+            "de": "die Bilder der Tafel haben {width}x{height} px, die Kamera wurde aber mit "
+            "{width_before}x{height_before} px kalibriert, und die Auslesezeit wird für diese "
+            "Größe gespeichert",
+        },
+    ),
+    "COEFFICIENTS_INVALID": (
+        {
+            "en": "a lens with {coefficients} coefficients, allowed {allowed}",
+            "de": "ein Objektiv mit {coefficients} Koeffizienten, erlaubt {allowed}",
+        },
+    ),
+    "IMAGE_TOO_LARGE": (
+        {
+            "en": "an image has {size} px and {bytes} bytes, the maximum is {limit_bytes} bytes",
+            "de": "ein Bild hat {size} px und {bytes} Bytes, höchstens {limit_bytes} Bytes",
+        },
+    ),
+    "READOUT_INTERRUPTED": (
+        {
+            "en": "after {images} images the next one came {later_s:.1f} s later, limit "
+            "{max_pause_s:.1f} s, or with another size",
+            "de": "nach {images} Bildern kam das nächste {later_s:.1f} s später, Grenze "
+            "{max_pause_s:.1f} s, oder in anderer Größe",
+        },
+    ),
+    "READOUT_INVALID": (
+        {
+            "en": "reading an image row by row would take {readout_ms:g} ms",
+            "de": "das zeilenweise Auslesen eines Bildes würde {readout_ms:g} ms dauern",
+        },
+    ),
+    "READOUT_TOO_FEW_IMAGES": (
+        {
+            "en": "the moving board was found in {images} images with neighbours within {gap_ms:.0f} "
+            "ms, needed {min_images}",
+            "de": "die bewegte Tafel wurde in {images} Bildern mit Nachbarn innerhalb von {gap_ms:.0f} "
+            "ms gefunden, nötig {min_images}",
+        },
+    ),
+    "RIG_TOO_SMALL": (
+        {
+            "en": "a rig of {cameras} camera, needed are at least 2",
+            "de": "ein Verbund aus {cameras} Kamera, nötig mindestens 2",
+        },
+    ),
+    "RIG_UNCONNECTED": (
+        {
+            "en": "{camera} sees the board together with another camera in {views} views, at least "
+            "{min_pairs} are needed",
+            "de": "{camera} sieht die Tafel in {views} Ansichten zusammen mit einer anderen Kamera, "
+            "nötig mindestens {min_pairs}",
+        },
+    ),
+    "RIG_VIEWS_DISAGREE": (
+        {
+            "en": "{disagree} of {views} instants do not fit to one rig, allowed is a third of them",
+            "de": "{disagree} von {views} Zeitpunkten passen nicht zu einem Verbund, erlaubt ist ein Drittel",
+        },
+        {
+            "en": "{disagree} of {views} views place {far} elsewhere to {near} than the rest, allowed "
+            "is a third of them",
+            "de": "{disagree} von {views} Ansichten ordnen {far} zu {near} anders an als die übrigen, "
+            "erlaubt ist ein Drittel",
+        },
+    ),
+    "VIEWS_ALL_PARALLEL": (
+        {
+            "en": "the board's directions differ by {tilt_range_deg:.1f} deg, needed {needed_deg:g} "
+            "deg, and the focal length has a standard deviation of {focal_sd_percent:.1f} %, "
+            "allowed {allowed_percent:.0f} %",
+            "de": "die Richtungen der Tafel unterscheiden sich um {tilt_range_deg:.1f}°, nötig "
+            "{needed_deg:g}°, und die Brennweite hat eine Standardabweichung von "
+            "{focal_sd_percent:.1f} %, erlaubt {allowed_percent:.0f} %",
+        },
+    ),
+    "PHONE_WITHOUT_SERVER": (
+        {
+            "en": "the source 'phone' needs a running server",
+            "de": "die Quelle „phone“ braucht einen laufenden Server",
+        },
+    ),
+    "REHEARSAL_WITHOUT_THEATRE": (
+        {
+            "en": "the rehearsal was requested, but its theatre was not built",
+            "de": "der Probebetrieb wurde verlangt, sein Operationssaal aber nicht erzeugt",
+        },
+    ),
 }

@@ -95,6 +95,10 @@ CASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "CT_TOO_FEW_SLICES": (
         {
+            "en": "the series has slices at {places} place, needed at least 2",
+            "de": "die Serie hat Schichten an {places} Ort, nötig mindestens 2",
+        },
+        {
             "en": "the CT has {slices} slice, the minimum is 2",
             "de": "das CT hat {slices} Schicht, mindestens 2",
         },
@@ -145,6 +149,147 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "{expected_version}",
             "de": "{kind} „{name}“ ist in Version {found_version}, die Änderung bezog sich auf Version "
             "{expected_version}",
+        },
+    ),
+    "CT_AFFINE_INVALID": (
+        {
+            "en": "the {affine} of the NIfTI is singular or not finite",
+            "de": "die {affine} des NIfTI ist singulär oder nicht endlich",
+        },
+    ),
+    "CT_ATLAS_SPACE": (
+        {
+            "en": "the NIfTI is deformed to an atlas (code {code}), so that lengths are not those of "
+            "the patient",
+            "de": "das NIfTI ist auf einen Atlas verformt (Code {code}), daher sind Längen nicht die "
+            "des Patienten",
+        },
+    ),
+    "CT_COMPRESSION_UNKNOWN": (
+        {
+            "en": "the slices are compressed as {syntax} with {bits} bits, which cannot be read here",
+            "de": "die Schichten sind als {syntax} mit {bits} Bit komprimiert, was hier nicht lesbar ist",
+        },
+    ),
+    "CT_DIRECTIONS_DIFFER": (
+        {
+            "en": "{slices} of {of} slices lie in another direction (planes up to {worst_deg:.2f} deg apart)",
+            "de": "{slices} von {of} Schichten liegen in anderer Richtung (Ebenen bis {worst_deg:.2f}° "
+            "verschieden)",
+        },
+    ),
+    "CT_DIRECTIONS_INVALID": (
+        {
+            "en": "{slices} of {of} slices have directions that are not at right angles, or not of length 1",
+            "de": "{slices} von {of} Schichten haben Richtungen, die nicht im rechten Winkel stehen "
+            "oder nicht die Länge 1 haben",
+        },
+    ),
+    "CT_GEOMETRY_MISSING": (
+        {
+            "en": "{slices} of {of} slices do not state their {attribute}",
+            "de": "{slices} von {of} Schichten nennen ihr Attribut {attribute} nicht",
+        },
+    ),
+    "CT_PIXELS_DIFFER": (
+        {
+            "en": "{slices} of {of} slices have pixels of another size: they go from {min_mm:.4f} to "
+            "{max_mm:.4f} mm",
+            "de": "{slices} von {of} Schichten haben Pixel anderer Größe: sie reichen von {min_mm:.4f} "
+            "bis {max_mm:.4f} mm",
+        },
+    ),
+    "CT_PIXELS_INVALID": (
+        {
+            "en": "the slices are declared as {columns} x {rows} pixels of {min_mm:g} to {max_mm:g} "
+            "mm, allowed: 2 to {max_side_px} pixels per side of {min_pixel_mm} to "
+            "{max_pixel_mm:.0f} mm",
+            "de": "die Schichten sind mit {columns} x {rows} Pixeln von {min_mm:g} bis {max_mm:g} mm "
+            "angegeben, erlaubt: 2 bis {max_side_px} Pixel je Seite von {min_pixel_mm} bis "
+            "{max_pixel_mm:.0f} mm",
+        },
+    ),
+    "CT_PIXELS_UNKNOWN": (
+        {
+            "en": "the slices store {bits_stored} of {bits_allocated} bits with {high_bit} as the "
+            "highest, which is not a CT",
+            "de": "die Schichten speichern {bits_stored} von {bits_allocated} Bit mit {high_bit} als "
+            "höchstem, das ist kein CT",
+        },
+    ),
+    "CT_SLICES_SHIFTED": (
+        {
+            "en": "two slices lie in one plane, {shift_mm:.2f} mm apart, allowed {max_shift_mm:.2f} mm",
+            "de": "zwei Schichten liegen in einer Ebene, {shift_mm:.2f} mm auseinander, erlaubt "
+            "{max_shift_mm:.2f} mm",
+        },
+    ),
+    "CT_SLICE_DAMAGED": (
+        {
+            "en": "a slice of {bytes} bytes cannot be decoded ({compression})",
+            "de": "eine Schicht von {bytes} Bytes lässt sich nicht dekodieren ({compression})",
+        },
+    ),
+    "CT_SLICE_TOO_LARGE": (
+        {
+            "en": "the file of a slice has {size_mib:.0f} MiB, the maximum is {max_mib:.0f} MiB",
+            "de": "die Datei einer Schicht hat {size_mib:.0f} MiB, höchstens {max_mib:.0f} MiB",
+        },
+    ),
+    "CT_TILT_TOO_LARGE": (
+        {
+            "en": "the slices are tilted by {tilt_deg:.1f} deg against the stacking direction, allowed "
+            "{max_tilt_deg:.0f} deg",
+            "de": "die Schichten sind um {tilt_deg:.1f}° gegen die Stapelrichtung gekippt, erlaubt "
+            "{max_tilt_deg:.0f}°",
+        },
+    ),
+    "CT_TOO_LARGE": (
+        {
+            "en": "the CT has {columns} x {rows} x {slices} voxels, {million:.0f} million, the maximum "
+            "is {max_million:.0f} million",
+            "de": "das CT hat {columns} x {rows} x {slices} Voxel, {million:.0f} Millionen, höchstens "
+            "{max_million:.0f} Millionen",
+        },
+    ),
+    "CT_VALUES_BEYOND": (
+        {
+            "en": "{beyond} of {voxels} voxels ({beyond_ratio:.0%}) are outside {min_hu} to {max_hu} "
+            "HU, the maximum is {max_ratio:.0%}: slope or intercept is wrong",
+            "de": "{beyond} von {voxels} Voxeln ({beyond_ratio:.0%}) liegen außerhalb von {min_hu} bis "
+            "{max_hu} HU, höchstens {max_ratio:.0%}: Steigung oder Achsenabschnitt ist falsch",
+        },
+    ),
+    "CONTENT_TOO_LARGE": (
+        {
+            "en": "the document has {size_mb:.1f} MB, the maximum is {max_mb:g} MB",
+            "de": "das Dokument hat {size_mb:.1f} MB, höchstens {max_mb:g} MB",
+        },
+    ),
+    "SUFFIX_INVALID": (
+        {
+            "en": "'{suffix}' is not a valid file name suffix",
+            "de": "„{suffix}“ ist keine gültige Dateiendung",
+        },
+    ),
+    "DEPENDS_ON_IDENTITY": (
+        {
+            "en": "a document must not depend on the patient's identity, because that is not exported",
+            "de": "ein Dokument darf nicht auf der Identität des Patienten beruhen, weil diese nicht "
+            "exportiert wird",
+        },
+    ),
+    "HOME_IN_USE": (
+        {
+            "en": "another Coaxial is running with the folder {folder}, which only one may use at a time",
+            "de": "ein anderes Coaxial läuft mit dem Ordner {folder}, den nur eines zur Zeit verwenden darf",
+        },
+    ),
+    "IDENTITY_WITH_FILES": (
+        {
+            "en": "the document of the patient's identity must not have files, because files are exported",
+            "de": "das Dokument mit der Identität des Patienten darf keine Dateien haben, weil Dateien "
+            "exportiert werden",
         },
     ),
 }

@@ -271,6 +271,10 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
     ),
     "SLICE_OUTSIDE_CT": (
         {
+            "en": "slice {slice_index} was requested, the CT has {slices} (0 to {last})",
+            "de": "verlangt wurde Schicht {slice_index}, das CT hat {slices} (0 bis {last})",
+        },
+        {
             "en": "the reference slice is number {slice_index}, the CT has {slices}",
             "de": "die Referenzschicht hat die Nummer {slice_index}, das CT hat {slices}",
         },
@@ -301,6 +305,322 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "{views} views have been taken, the maximum",
             "de": "{views} Ansichten sind aufgenommen, das ist die Höchstzahl",
+        },
+    ),
+    "PEDICLE_CUT": (
+        {
+            "en": "the CT ends within the pedicle: {outside_percent:.0f} % of its wall lie outside, none may",
+            "de": "das CT endet im Pedikel: {outside_percent:.0f} % seiner Wand liegen außerhalb, "
+            "erlaubt ist nichts",
+        },
+    ),
+    "PEDICLE_DOUBTFUL": (
+        {
+            "en": "the narrowest section that was found, {width_mm:.1f} x {height_mm:.1f} mm at "
+            "{centre} mm, is hardly the pedicle's: beyond its medial wall bone goes on for "
+            "{beyond_mm:.0f} mm (allowed {allowed_mm:.0f} mm), where the canal should begin",
+            "de": "der engste gefundene Querschnitt, {width_mm:.1f} x {height_mm:.1f} mm bei {centre} "
+            "mm, ist kaum der des Pedikels: jenseits seiner medialen Wand reicht Knochen noch "
+            "{beyond_mm:.0f} mm weiter (erlaubt {allowed_mm:.0f} mm), wo der Spinalkanal "
+            "beginnen müsste",
+        },
+        {
+            "en": "the narrowest section from the click is {width_mm:.1f} x {height_mm:.1f} mm, and "
+            "{second}; they should be one",
+            "de": "der engste Querschnitt von der angetippten Stelle aus ist {width_mm:.1f} x "
+            "{height_mm:.1f} mm, und {second}; beide müssten gleich sein",
+        },
+    ),
+    "PEDICLE_NOT_FOUND": (
+        {
+            "en": "the bone at the click ({seed_hu:.0f} HU) is open on all sides: no section of it "
+            "within 7 mm is closed",
+            "de": "der Knochen an der angetippten Stelle ({seed_hu:.0f} HU) ist nach allen Seiten "
+            "offen: kein Querschnitt innerhalb von 7 mm ist geschlossen",
+        },
+        {
+            "en": "the bone around the click is not a pedicle: {bone_shape} (noise {noise_hu:.0f} HU)",
+            "de": "der Knochen um die angetippte Stelle ist kein Pedikel: {bone_shape} (Rauschen "
+            "{noise_hu:.0f} HU)",
+        },
+    ),
+    "SEED_INVALID": (
+        {
+            "en": "the click is not three finite numbers",
+            "de": "die angetippte Stelle besteht nicht aus drei endlichen Zahlen",
+        },
+    ),
+    "SEED_IN_AIR": (
+        {
+            "en": "the click lies in air or lung: {seed_hu:.0f} HU, bone begins far above {air_hu:.0f} HU",
+            "de": "die angetippte Stelle liegt in Luft oder Lunge: {seed_hu:.0f} HU, Knochen beginnt "
+            "weit über {air_hu:.0f} HU",
+        },
+    ),
+    "SEED_NOT_IN_BONE": (
+        {
+            "en": "the click lies in {seed_hu:.0f} HU and no wall of bone closes around it, bone here "
+            "is above {limit_hu:.0f} HU",
+            "de": "die angetippte Stelle liegt in {seed_hu:.0f} HU, und keine Knochenwand schließt "
+            "sich um sie, Knochen liegt hier über {limit_hu:.0f} HU",
+        },
+    ),
+    "SEED_NOT_IN_PEDICLE": (
+        {
+            "en": "the nearest bar of bone does not contain the click: it lies {outside_mm:.1f} mm "
+            "beside its wall (allowed {allowed_mm:.1f} mm) and {beyond_mm:.1f} mm beyond its end "
+            "(allowed 9 mm)",
+            "de": "der nächste Knochensteg enthält die angetippte Stelle nicht: sie liegt "
+            "{outside_mm:.1f} mm neben seiner Wand (erlaubt {allowed_mm:.1f} mm) und "
+            "{beyond_mm:.1f} mm hinter seinem Ende (erlaubt 9 mm)",
+        },
+    ),
+    "SEED_ON_OTHER_SIDE": (
+        {
+            "en": "side is {side}, but canal and body lie as they do beside the patient's {other_side} "
+            "pedicle",
+            "de": "als Seite ist {side} angegeben, aber Spinalkanal und Wirbelkörper liegen wie beim "
+            "Pedikel {other_side}",
+        },
+    ),
+    "SEED_OUTSIDE_CT": (
+        {
+            "en": "the click at {seed} mm lies outside the CT, which reaches from {low} to {high} mm (LPS)",
+            "de": "die angetippte Stelle bei {seed} mm liegt außerhalb des CT, das von {low} bis "
+            "{high} mm reicht (LPS)",
+        },
+    ),
+    "BONE_INSIDE_OUT": (
+        {
+            "en": "the bone's surface encloses {volume_ml:.1f} ml: its triangles are clockwise",
+            "de": "die Knochenoberfläche umschließt {volume_ml:.1f} ml: ihre Dreiecke laufen im "
+            "Uhrzeigersinn",
+        },
+    ),
+    "BONE_NOT_AT_CHANNEL": (
+        {
+            "en": "{in_bone_percent:.0f} % of channel '{channel}' lies inside of the bone's surface, "
+            "needed {needed_percent:.0f} % or more",
+            "de": "{in_bone_percent:.0f} % des Kanals „{channel}“ liegen in der Knochenoberfläche, "
+            "nötig {needed_percent:.0f} % oder mehr",
+        },
+    ),
+    "BONE_THRESHOLD_OUTSIDE": (
+        {
+            "en": "a threshold of {threshold_hu:.0f} HU separates no voxels, which range from "
+            "{lowest_hu:.0f} to {highest_hu:.0f} HU",
+            "de": "ein Schwellwert von {threshold_hu:.0f} HU trennt keine Voxel, sie reichen von "
+            "{lowest_hu:.0f} bis {highest_hu:.0f} HU",
+        },
+    ),
+    "BONE_TOO_LARGE": (
+        {
+            "en": "at {threshold_hu:.0f} HU the surface has {vertices} vertices, allowed {max_vertices}",
+            "de": "bei {threshold_hu:.0f} HU hat die Oberfläche {vertices} Eckpunkte, erlaubt {max_vertices}",
+        },
+    ),
+    "CHANNEL_INVALID": (
+        {
+            "en": "channel '{channel}' is {length_mm:.2f} mm long with radius {radius_mm:.2f} mm, "
+            "needed at least 1 mm and above 0 mm",
+            "de": "der Kanal „{channel}“ ist {length_mm:.2f} mm lang mit einem Radius von "
+            "{radius_mm:.2f} mm, nötig mindestens 1 mm und über 0 mm",
+        },
+    ),
+    "CHANNEL_MISSING": (
+        {"en": "{vertebra} has no {side} channel", "de": "{vertebra} hat {side} keinen Kanal"},
+    ),
+    "CHANNEL_OUTSIDE_CT": (
+        {
+            "en": "channel '{channel}' runs from {entry} to {target} mm, which is not all within the CT",
+            "de": "der Kanal „{channel}“ verläuft von {entry} bis {target} mm und liegt damit nicht "
+            "ganz im CT",
+        },
+    ),
+    "CORRECTION_INVALID": (
+        {
+            "en": "'{name}' cannot be corrected, allowed are {allowed}",
+            "de": "„{name}“ kann nicht korrigiert werden, erlaubt sind {allowed}",
+        },
+        {
+            "en": "{number} was corrected to {corrected}, allowed are {low:g} to {high:g}",
+            "de": "{number} wurde auf {corrected} korrigiert, erlaubt sind {low:g} bis {high:g}",
+        },
+    ),
+    "CROP_OUTSIDE_CT": (
+        {
+            "en": "around the channels the CT has only {voxels} voxels, needed 2 along each axis",
+            "de": "um die Kanäle herum hat das CT nur {voxels} Voxel, nötig 2 längs jeder Achse",
+        },
+    ),
+    "FIELD_TOO_LARGE": (
+        {
+            "en": "the distances around the channel would take {nodes} nodes, allowed {max_nodes}",
+            "de": "die Abstände um den Kanal bräuchten {nodes} Knoten, erlaubt {max_nodes}",
+        },
+    ),
+    "LANDMARK_INVALID": (
+        {
+            "en": "landmark '{name}' has a place of shape {shape}, needed a name and three finite numbers",
+            "de": "die Landmarke „{name}“ hat einen Ort der Form {shape}, nötig ein Name und drei "
+            "endliche Zahlen",
+        },
+    ),
+    "LANDMARK_OUTSIDE_CT": (
+        {
+            "en": "landmark '{name}' was set at ({point}) mm, which is not within the CT",
+            "de": "die Landmarke „{name}“ wurde bei ({point}) mm gesetzt, das liegt nicht im CT",
+        },
+    ),
+    "LANDMARK_TWICE": (
+        {
+            "en": "{landmarks} landmarks have only {different} different names; '{name}' is there "
+            "{times} times",
+            "de": "{landmarks} Landmarken haben nur {different} verschiedene Namen; „{name}“ kommt "
+            "{times}-mal vor",
+        },
+    ),
+    "LINES_INVALID": (
+        {
+            "en": "the outer lines stand {apart_mm} mm from the middle, allowed are {min_mm:.0f} to 100 mm",
+            "de": "die äußeren Linien stehen {apart_mm} mm von der Mitte, erlaubt sind {min_mm:.0f} "
+            "bis 100 mm",
+        },
+    ),
+    "MIDDLE_OUTSIDE_CT": (
+        {
+            "en": "the middle line was set through ({middle}) mm, not on slice {slice_index} of the CT",
+            "de": "die mittlere Linie wurde durch ({middle}) mm gelegt, nicht auf Schicht "
+            "{slice_index} des CT",
+        },
+    ),
+    "MIDDLE_UNKNOWN": (
+        {
+            "en": "{pedicles} pedicle is measured, the middle lies between 2",
+            "de": "{pedicles} Pedikel ist gemessen, die Mitte liegt zwischen 2",
+        },
+    ),
+    "NO_PEDICLE_MEASURED": (
+        {
+            "en": "0 pedicles are measured, a slice is proposed from 1 or 2",
+            "de": "0 Pedikel sind gemessen, eine Schicht wird aus 1 oder 2 vorgeschlagen",
+        },
+    ),
+    "NO_SCREW_FITS": (
+        {
+            "en": "the path leaves {nearest_wall_mm:.1f} mm to the nearest wall and {front_mm:.1f} mm "
+            "to the front; the smallest screw is {thinnest_mm:.1f} x {shortest_mm:.0f} mm and "
+            "needs {needed_wall_mm:.1f} and {needed_front_mm:.1f} mm",
+            "de": "der Pfad lässt {nearest_wall_mm:.1f} mm bis zur nächsten Wand und {front_mm:.1f} mm "
+            "nach vorn; die kleinste Schraube misst {thinnest_mm:.1f} x {shortest_mm:.0f} mm und "
+            "braucht {needed_wall_mm:.1f} und {needed_front_mm:.1f} mm",
+        },
+    ),
+    "PEDICLE_MISSING": (
+        {
+            "en": "the {side} pedicle of {vertebra} is not measured",
+            "de": "der Pedikel {side} von {vertebra} ist nicht gemessen",
+        },
+    ),
+    "PLANE_INVALID": (
+        {
+            "en": "the two directions of the plane are parallel or zero",
+            "de": "die beiden Richtungen der Ebene sind parallel oder null",
+        },
+    ),
+    "PLAN_INVALID": (
+        {
+            "en": "the plan names {vertebrae} vertebrae, but only {different} different ones: {names}",
+            "de": "die Planung nennt {vertebrae} Wirbel, aber nur {different} verschiedene: {names}",
+        },
+    ),
+    "SCREW_INVALID": (
+        {
+            "en": "the screw is {diameter_mm} x {length_mm} mm, allowed are diameters under 20 and "
+            "lengths under 200 mm",
+            "de": "die Schraube misst {diameter_mm} x {length_mm} mm, erlaubt sind Durchmesser unter "
+            "20 und Längen unter 200 mm",
+        },
+    ),
+    "SIDE_INVALID": (
+        {
+            "en": "side is '{given_side}', allowed are left and right",
+            "de": "als Seite ist „{given_side}“ angegeben, erlaubt sind left und right",
+        },
+    ),
+    "SLAB_INVALID": (
+        {
+            "en": "a slab of {slab_mm:g} mm cannot be shown, allowed 0 to {max_mm:.0f} mm",
+            "de": "eine Schichtdicke von {slab_mm:g} mm kann nicht gezeigt werden, erlaubt 0 bis "
+            "{max_mm:.0f} mm",
+        },
+    ),
+    "SLICE_TOO_LARGE": (
+        {
+            "en": "a slice of {width_mm:.1f} x {height_mm:.1f} mm with pixels of {pixel_mm:.4f} mm "
+            "cannot be shown, allowed {max_px} pixels a side",
+            "de": "eine Schicht von {width_mm:.1f} x {height_mm:.1f} mm mit Pixeln von {pixel_mm:.4f} "
+            "mm kann nicht gezeigt werden, erlaubt {max_px} Pixel je Seite",
+        },
+    ),
+    "VERTEBRA_UNKNOWN": (
+        {
+            "en": "the plan has no vertebra '{name}', it has {existing}",
+            "de": "die Planung hat keinen Wirbel „{name}“, sie hat {existing}",
+        },
+    ),
+    "WINDOW_INVALID": (
+        {
+            "en": "a window of {width_hu:g} HU around {centre_hu:g} HU shows nothing, needed a width above 0",
+            "de": "ein Fenster von {width_hu:g} HU um {centre_hu:g} HU zeigt nichts, nötig ist eine "
+            "Breite über 0",
+        },
+    ),
+    "ALARM_NOT_LOGGED": (
+        {
+            "en": "the action could not be written to the alarm log within {timeout_s:g} s",
+            "de": "die Aktion konnte nicht innerhalb von {timeout_s:g} s in das Alarmprotokoll "
+            "geschrieben werden",
+        },
+    ),
+    "MESH_FORMAT_UNKNOWN": (
+        {
+            "en": "the start of the file ({bytes} bytes) is not that of STL, OBJ or PLY",
+            "de": "der Anfang der Datei ({bytes} Bytes) ist nicht der von STL, OBJ oder PLY",
+        },
+    ),
+    "SCREW_NOT_IN_CATALOGUE": (
+        {
+            "en": "the catalogue has no screw of {diameter_mm:g} x {length_mm:g} mm",
+            "de": "der Katalog hat keine Schraube von {diameter_mm:g} x {length_mm:g} mm",
+        },
+    ),
+    "CHANNEL_DIRECTION_UNKNOWN": (
+        {
+            "en": "the line in {file} runs {forward_mm:.1f} mm anteriorly from its first point to its "
+            "second; the first point counts as the entry from {min_forward_mm:g} mm on",
+            "de": "die Linie in {file} verläuft vom ersten zum zweiten Punkt {forward_mm:.1f} mm nach "
+            "vorn; ab {min_forward_mm:g} mm gilt der erste Punkt als Eintritt",
+        },
+    ),
+    "LANDMARKS_UNNAMED": (
+        {
+            "en": "{file} has {unnamed} points without a label, the first is point {first}",
+            "de": "{file} hat {unnamed} Punkte ohne Bezeichnung, der erste ist Punkt {first}",
+        },
+    ),
+    "REGION_INVALID": (
+        {
+            "en": "the region from {low} to {high} mm is not a box, each side must be above 0 mm",
+            "de": "der Bereich von {low} bis {high} mm ist kein Quader, jede Seite muss über 0 mm lang sein",
+        },
+    ),
+    "REGION_OUTSIDE": (
+        {
+            "en": "the region from {low} to {high} mm lies outside of the CT, which reaches from "
+            "{ct_low} to {ct_high} mm",
+            "de": "der Bereich von {low} bis {high} mm liegt außerhalb des CT, das von {ct_low} bis "
+            "{ct_high} mm reicht",
         },
     ),
 }

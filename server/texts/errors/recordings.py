@@ -16,6 +16,12 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
     ),
     "RECORDING_BUDGET_EXCEEDED": (
         {
+            "en": "all recordings together would exceed recording.max_total_gb with this one, which "
+            "has {written_gb:.2f} GB",
+            "de": "alle Aufnahmen zusammen würden mit dieser, die {written_gb:.2f} GB hat, "
+            "recording.max_total_gb überschreiten",
+        },
+        {
             "en": "all recordings together have reached recording.max_total_gb, {max_total_gb:g} GB",
             "de": "alle Aufnahmen zusammen haben recording.max_total_gb erreicht, {max_total_gb:g} GB",
         },
@@ -33,6 +39,12 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
         },
     ),
     "RECORDING_DISK_FULL": (
+        {
+            "en": "{free_gb:.2f} GB are free on the disk of the cases, and {min_free_gb:.2f} GB must "
+            "stay free (recording.min_free_gb)",
+            "de": "{free_gb:.2f} GB sind auf der Platte der Fälle frei, und {min_free_gb:.2f} GB "
+            "müssen frei bleiben (recording.min_free_gb)",
+        },
         {
             "en": "{free_gb:.2f} GB are free on the disk of the cases, and {min_free_gb:g} GB must stay "
             "free (recording.min_free_gb)",
@@ -53,5 +65,19 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
             "de": "der geöffnete Fall hat keine Aufnahme {name!r}",
         },
         {"en": "{name} was deleted meanwhile", "de": "{name} wurde inzwischen gelöscht"},
+    ),
+    "RECORDING_OTHER_VERSION": (
+        {
+            "en": "the results of image {image} cannot be read: {unknown} values have an unknown format",
+            "de": "die Ergebnisse von Bild {image} sind nicht lesbar: {unknown} Werte haben ein "
+            "unbekanntes Format",
+        },
+    ),
+    "RECORDING_TOO_NEW": (
+        {
+            "en": "the recording has format {format_version}, this version reads up to {max_format_version}",
+            "de": "die Aufnahme hat das Format {format_version}, diese Version liest bis "
+            "{max_format_version}",
+        },
     ),
 }

@@ -235,4 +235,192 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
             "de": "die Landmarken wurden relativ zum Marker „{reference}“ angetastet, nicht zur Kamera",
         },
     ),
+    "CHECK_INVALID": (
+        {
+            "en": "landmark and tip are not three finite numbers each",
+            "de": "Landmarke und Spitze bestehen nicht aus je drei endlichen Zahlen",
+        },
+    ),
+    "COLLECTION_MISSING": ({"en": "no {collection} in progress", "de": "{collection}"},),
+    "NEEDLE_PLACE_INVALID": (
+        {
+            "en": "the place of needle '{needle}' has an invalid number; its direction has a spread of "
+            "{direction_sd_deg:g} deg, allowed above 0 to 90",
+            "de": "der Ort der Nadel „{needle}“ hat eine ungültige Zahl; ihre Richtung hat eine "
+            "Streuung von {direction_sd_deg:g}°, erlaubt über 0 bis 90",
+        },
+    ),
+    "NEEDLE_SEEN_INVALID": (
+        {
+            "en": "a needle is {length_px:.1f} px long with a spread of {spread_px:g} px; needed at "
+            "least {min_length_px:g} px and a spread above 0",
+            "de": "eine Nadel ist {length_px:.1f} px lang mit einer Streuung von {spread_px:g} px; "
+            "nötig mindestens {min_length_px:g} px und eine Streuung über 0",
+        },
+    ),
+    "NEEDLE_TWICE": (
+        {"en": "{needles} needles have {names} names", "de": "{needles} Nadeln haben {names} Namen"},
+    ),
+    "NUDGE_PIVOT_INVALID": (
+        {
+            "en": "the centre of rotation is not three finite numbers",
+            "de": "der Drehpunkt besteht nicht aus drei endlichen Zahlen",
+        },
+    ),
+    "OVERLAY_INVALID": (
+        {
+            "en": "the slice has scale {scale_px_per_mm:g} px/mm and opacity {fade_ratio:g}; allowed "
+            "{min_scale:g} to {max_scale:g} px/mm and 0 to 1",
+            "de": "die Schicht hat den Maßstab {scale_px_per_mm:g} px/mm und die Deckkraft "
+            "{fade_ratio:g}; erlaubt {min_scale:g} bis {max_scale:g} px/mm und 0 bis 1",
+        },
+    ),
+    "POINTS_AMBIGUOUS": (
+        {
+            "en": "the points fit to {fre_mm:.2f} mm RMS as given, and better "
+            "({other_order_fre_mm:.2f} mm) with {exchanged_points} swapped, so that their order "
+            "is ambiguous",
+            "de": "die Punkte passen wie angegeben auf {fre_mm:.2f} mm RMS, und besser "
+            "({other_order_fre_mm:.2f} mm), wenn man {exchanged_points} tauscht; ihre "
+            "Reihenfolge ist daher mehrdeutig",
+        },
+    ),
+    "POINTS_COINCIDENT": (
+        {
+            "en": "points {points[0]} and {points[1]} are {apart_mm:.2f} mm apart {points_where}, "
+            "needed {needed_mm:g} mm{spread_hint}",
+            "de": "die Punkte {points[0]} und {points[1]} liegen {points_where} {apart_mm:.2f} mm "
+            "auseinander, nötig {needed_mm:g} mm{spread_hint}",
+        },
+    ),
+    "POINTS_COLLINEAR": (
+        {
+            "en": "the points are nearly a line {points_where}: they reach {along_mm:.1f} mm along it "
+            "and only {beside_mm:.2f} mm beside it (RMS), so that the rotation about that line "
+            "is ambiguous (known to {turn_sd_deg:.0f} deg, allowed {allowed_deg:g} deg; needed "
+            "beside it {needed_mm:.2f} mm at least)",
+            "de": "die Punkte liegen {points_where} fast auf einer Geraden: sie reichen {along_mm:.1f} "
+            "mm längs und nur {beside_mm:.2f} mm quer dazu (RMS), daher ist die Drehung um diese "
+            "Gerade mehrdeutig (bekannt auf {turn_sd_deg:.0f}°, erlaubt {allowed_deg:g}°; quer "
+            "dazu nötig mindestens {needed_mm:.2f} mm)",
+        },
+    ),
+    "POINTS_FIT_TOO_LARGE": (
+        {
+            "en": "landmarks fit to {fre_rms_mm:.2f} mm RMS, allowed {allowed_mm:.2f} mm; {misfit}",
+            "de": "die Landmarken passen auf {fre_rms_mm:.2f} mm RMS, erlaubt {allowed_mm:.2f} mm; {misfit}",
+        },
+    ),
+    "POINTS_INVALID": (
+        {
+            "en": "{labels} points have {names} different names",
+            "de": "{labels} Punkte haben {names} verschiedene Namen",
+        },
+        {
+            "en": "{not_finite} of {points} points {points_where} have a number that is not finite",
+            "de": "{not_finite} von {points} Punkten {points_where} haben eine Zahl, die nicht endlich ist",
+        },
+        {
+            "en": "the covariances of {tips} tips have shape {shape}, or are not positive definite",
+            "de": "die Kovarianzen von {tips} Spitzen haben die Form {shape}, oder sie sind nicht "
+            "positiv definit",
+        },
+    ),
+    "POINTS_MIRRORED": (
+        {
+            "en": "the points are mirrored: as given they fit to {fre_mm:.2f} mm RMS, their mirror "
+            "image to {mirrored_fre_mm:.2f} mm",
+            "de": "die Punkte sind gespiegelt: wie angegeben passen sie auf {fre_mm:.2f} mm RMS, ihr "
+            "Spiegelbild auf {mirrored_fre_mm:.2f} mm",
+        },
+    ),
+    "POINTS_SWAPPED": (
+        {
+            "en": "{exchanged_points} seem to be swapped: as given the points fit to {fre_mm:.2f} mm "
+            "RMS, swapped to {other_order_fre_mm:.2f} mm",
+            "de": "{exchanged_points} sind offenbar vertauscht: wie angegeben passen die Punkte auf "
+            "{fre_mm:.2f} mm RMS, getauscht auf {other_order_fre_mm:.2f} mm",
+        },
+    ),
+    "POINTS_TARGET_UNCERTAIN": (
+        {
+            "en": "at the target the registration has an uncertainty of {tre_stated_mm:.2f} mm (3-D "
+            "RMS), allowed {allowed_mm:.2f} mm{outlier_exception}",
+            "de": "am Zielpunkt hat die Registrierung eine Unsicherheit von {tre_stated_mm:.2f} mm "
+            "(3-D RMS), erlaubt {allowed_mm:.2f} mm{outlier_exception}",
+        },
+    ),
+    "POINTS_UNIT_SUSPECT": (
+        {
+            "en": "the points spread over {fixed_spread_mm:.4g} mm on the CT and over "
+            "{moving_spread_mm:.4g} mm as touched, {size_ratio:.4g} times as much{unit_guess}",
+            "de": "die Punkte streuen auf dem CT über {fixed_spread_mm:.4g} mm und beim Antasten über "
+            "{moving_spread_mm:.4g} mm, um den Faktor {size_ratio:.4g} verschieden{unit_guess}",
+        },
+    ),
+    "POINT_STRAYS": (
+        {
+            "en": "a landmark lies {leave_one_out_mm:.2f} mm from the fit of all others, allowed "
+            "{allowed_mm:.2f} mm; {misfit}",
+            "de": "eine Landmarke liegt {leave_one_out_mm:.2f} mm von der Anpassung aller übrigen, "
+            "erlaubt {allowed_mm:.2f} mm; {misfit}",
+        },
+    ),
+    "REFERENCE_DIFFERS": (
+        {
+            "en": "{title} is anchored to the marker '{registered}', but reference.marker in the "
+            "settings {reference_setting}",
+            "de": "{title} bezieht sich auf den Marker „{registered}“, aber reference.marker in den "
+            "Einstellungen {reference_setting}",
+        },
+    ),
+    "REGISTER_MISSING": (
+        {"en": "{unregistered} is not registered", "de": "{unregistered} ist nicht registriert"},
+    ),
+    "REGISTRATION_COVARIANCE_INVALID": (
+        {
+            "en": "the uncertainty of the registration is not a finite covariance",
+            "de": "die Unsicherheit der Registrierung ist keine endliche Kovarianz",
+        },
+        {
+            "en": "the uncertainty of tracking at the registration is not a finite covariance",
+            "de": "die Unsicherheit des Trackings bei der Registrierung ist keine endliche Kovarianz",
+        },
+    ),
+    "SURFACE_AMBIGUOUS": (
+        {
+            "en": "the sweep fits in two places {apart_mm:.1f} mm apart at the target, mostly "
+            "{direction}: to {rms_mm[0]:.2f} and to {rms_mm[1]:.2f} mm RMS",
+            "de": "die Abfahrt passt an zwei Orten, die am Zielpunkt {apart_mm:.1f} mm auseinander "
+            "liegen, vor allem {direction}: auf {rms_mm[0]:.2f} und auf {rms_mm[1]:.2f} mm RMS",
+        },
+    ),
+    "SURFACE_SLIDES": (
+        {
+            "en": "the sweep slides on the bone {direction}: there it is {direction_sd} at the target, "
+            "allowed {allowed_mm:g} mm",
+            "de": "die Abfahrt lässt sich auf dem Knochen verschieben, {direction}: dort ist sie am "
+            "Zielpunkt {direction_sd}, erlaubt {allowed_mm:g} mm",
+        },
+    ),
+    "SWEEP_ANCHOR_DIFFERS": (
+        {
+            "en": "{title} is anchored to the {start_anchor}, but a sweep would be anchored to the "
+            "{sweep_anchor}",
+            "de": "{title} bezieht sich auf {start_anchor}, die Abfahrt bezöge sich aber auf {sweep_anchor}",
+        },
+    ),
+    "VIEW_INVALID": (
+        {
+            "en": "the camera is {distance_mm:g} mm away with a spread of {distance_sd_mm:g} mm; "
+            "needed above 0",
+            "de": "die Kamera ist {distance_mm:g} mm entfernt, mit einer Streuung von "
+            "{distance_sd_mm:g} mm; nötig über 0",
+        },
+        {
+            "en": "the camera looks straight down, so V and H do not determine the up direction in its image",
+            "de": "die Kamera blickt senkrecht nach unten, daher bestimmen V und H nicht, wo in ihrem "
+            "Bild oben ist",
+        },
+    ),
 }

@@ -92,4 +92,128 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
             "de": "es gibt {different} verschiedene Lagen von {poses}, nötig {needed}",
         },
     ),
+    "SPIN_TOO_SMALL": (
+        {
+            "en": "the tool was spun by {spin_deg:.0f} degrees, needed {min_spin_deg:g}",
+            "de": "das Instrument wurde um {spin_deg:.0f}° gedreht, nötig {min_spin_deg:g}°",
+        },
+    ),
+    "SPIN_WOBBLES": (
+        {
+            "en": "the axis moved by {wobble_deg:.1f} degrees (RMS) while the tool was spun by "
+            "{spin_deg:.0f}, allowed {max_wobble_deg:g}",
+            "de": "die Achse bewegte sich um {wobble_deg:.1f}° (RMS), während das Instrument um "
+            "{spin_deg:.0f}° gedreht wurde, erlaubt {max_wobble_deg:g}",
+        },
+    ),
+    "MARKERS_TOO_SIMILAR": (
+        {
+            "en": "markers '{names[0]}' and '{names[1]}' look the same, however they are turned: "
+            "correlation {correlation:.3f}, allowed {max_correlation}",
+            "de": "die Marker „{names[0]}“ und „{names[1]}“ sehen in jeder Drehung gleich aus: "
+            "Korrelation {correlation:.3f}, erlaubt {max_correlation}",
+        },
+    ),
+    "MARKER_MIRROR_SYMMETRIC": (
+        {
+            "en": "marker '{marker}' is its own mirror image: correlation {correlation:.3f}, allowed "
+            "{max_correlation}; its reflection in steel would be detected as the marker, at a "
+            "wrong pose",
+            "de": "der Marker „{marker}“ ist sein eigenes Spiegelbild: Korrelation {correlation:.3f}, "
+            "erlaubt {max_correlation}; seine Spiegelung in Stahl würde als Marker erkannt, in "
+            "falscher Lage",
+        },
+    ),
+    "MARKER_NAMES_NOT_UNIQUE": (
+        {
+            "en": "{markers} markers have {different} names: {names}",
+            "de": "{markers} Marker haben {different} Namen: {names}",
+        },
+    ),
+    "MARKER_SIDE_INVALID": (
+        {
+            "en": "the side of marker '{marker}' is {side_mm} mm, needed above 0 mm",
+            "de": "die Seite des Markers „{marker}“ ist {side_mm} mm, nötig über 0 mm",
+        },
+    ),
+    "MARKER_SYMMETRIC": (
+        {
+            "en": "marker '{marker}' looks the same when rotated by {turned_deg} degrees: correlation "
+            "{correlation:.3f}, allowed {max_correlation}",
+            "de": "der Marker „{marker}“ sieht um {turned_deg} Grad gedreht gleich aus: Korrelation "
+            "{correlation:.3f}, erlaubt {max_correlation}",
+        },
+    ),
+    "POSE_COVARIANCE_INVALID": (
+        {
+            "en": "the covariances of {poses} poses have the shape {shape} or are not positive, needed "
+            "{needed_shape}",
+            "de": "die Kovarianzen von {poses} Lagen haben die Form {shape} oder sind nicht positiv, "
+            "nötig {needed_shape}",
+        },
+    ),
+    "TOOL_AXIS_INVALID": (
+        {
+            "en": "the drilling direction of '{tool}' is {axis}, which has no length",
+            "de": "die Bohrrichtung von „{tool}“ ist {axis}, sie hat keine Länge",
+        },
+    ),
+    "TOOL_FILE_OF_ANOTHER_MARKER": (
+        {
+            "en": "{file} was made with marker '{marker}' of {side_mm:g} mm, but the tool "
+            "has '{tool_marker}' of {tool_side_mm:g} mm",
+            "de": "{file} entstand mit dem Marker „{marker}“ von {side_mm:g} mm, das "
+            "Instrument hat aber „{tool_marker}“ von {tool_side_mm:g} mm",
+        },
+    ),
+    "TOOL_TIP_INVALID": (
+        {
+            "en": "the tip is {tip}, needed three numbers in mm",
+            "de": "die Spitze ist {tip}, nötig drei Zahlen in mm",
+        },
+        {
+            "en": "the tip is {tip}, which determines no direction from the marker",
+            "de": "die Spitze ist {tip}, das bestimmt keine Richtung vom Marker aus",
+        },
+    ),
+    "TOOL_TIP_UNKNOWN": (
+        {
+            "en": "tip and axis of '{tool}' are not defined",
+            "de": "Spitze und Achse von „{tool}“ sind nicht definiert",
+        },
+    ),
+    "TIME_OFFSET_AT_SEARCH_LIMIT": (
+        {
+            "en": "the correlation still increases at {offset_s:+.2f} s, where the search ends",
+            "de": "die Korrelation steigt bei {offset_s:+.2f} s noch, wo die Suche endet",
+        },
+    ),
+    "TIME_OFFSET_CHANGES": (
+        {
+            "en": "the offset changes by {change_ms:+.1f} ms from the first half of the recording to "
+            "the second, allowed {allowed_ms:.1f} ms",
+            "de": "der Zeitversatz ändert sich um {change_ms:+.1f} ms von der ersten zur zweiten "
+            "Hälfte der Aufnahme, erlaubt {allowed_ms:.1f} ms",
+        },
+    ),
+    "TIME_OFFSET_MOTIONS_DIFFER": (
+        {
+            "en": "the rates of both sources correlate by {correlation_ratio:.3f} at best (at "
+            "{offset_s:+.2f} s), needed {min_correlation_ratio:g}",
+            "de": "die Geschwindigkeiten beider Quellen korrelieren bestenfalls mit "
+            "{correlation_ratio:.3f} (bei {offset_s:+.2f} s), nötig {min_correlation_ratio:g}",
+        },
+    ),
+    "TIME_OFFSET_RATE_LOW": (
+        {
+            "en": "{source} has {rate_hz:.1f} poses per second, needed {min_rate_hz:g}",
+            "de": "{source} hat {rate_hz:.1f} Lagen je Sekunde, nötig {min_rate_hz:g}",
+        },
+    ),
+    "TIME_OFFSET_TOO_FEW_SAMPLES": (
+        {
+            "en": "{source} has {samples} different poses in intervals without a gap, needed {min_samples}",
+            "de": "{source} hat {samples} verschiedene Lagen in Abschnitten ohne Lücke, nötig {min_samples}",
+        },
+    ),
 }

@@ -14,12 +14,16 @@ FIELD = re.compile(r"\{[^{}!:]*((?:![rs])?(?::[^{}]*)?)\}")
 
 @dataclass(frozen=True, slots=True)
 class ErrorSite:
-    """Code, message and remedy as written; a part is None where it is not a literal."""
+    """Code, message and remedy as written; a part is None where it is not a literal.
+
+    So are the names of the values that it gives by name (`context`).
+    """
 
     where: str
     code: str
     message: str | None
     remedy: str | None
+    names: frozenset[str] | None
 
 
 def error_sites() -> Iterator[ErrorSite]:
@@ -48,7 +52,19 @@ def _sites_in(path: Path) -> Iterator[ErrorSite]:
         code, message, remedy = node.args[:3]
         if isinstance(code, ast.Constant) and isinstance(code.value, str) and CODE.fullmatch(code.value):
             where = f"{path.relative_to(ROOT)}:{node.lineno}"
-            yield ErrorSite(where, code.value, _shape(message, constants), _shape(remedy, constants))
+            yield ErrorSite(
+                where, code.value, _shape(message, constants), _shape(remedy, constants), _names(node)
+            )
+
+
+def _names(call: ast.Call) -> frozenset[str] | None:
+    given = [*call.args[3:4], *(one.value for one in call.keywords if one.arg == "context")]
+    if not given:
+        # A helper in place of the class may add values of its own.
+        return frozenset() if isinstance(call.func, ast.Name) and call.func.id[0].isupper() else None
+    if isinstance(given[0], ast.Dict) and all(isinstance(key, ast.Constant) for key in given[0].keys):
+        return frozenset(str(key.value) for key in given[0].keys if isinstance(key, ast.Constant))
+    return None
 
 
 def shape_of(template: str) -> str:

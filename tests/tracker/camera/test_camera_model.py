@@ -104,7 +104,7 @@ def test_a_missing_key_of_a_camera_file_is_named(key: str) -> None:
     with pytest.raises(InvalidInput, match=f"lacks {key}") as caught:
         CameraModel.from_mapping({k: v for k, v in GOOD.items() if k != key})
     assert caught.value.code == "CAMERA_FILE_INCOMPLETE"
-    assert caught.value.context == {"missing": [key]}
+    assert caught.value.context == {"missing": [key], "keys": key}
 
 
 def _points() -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:

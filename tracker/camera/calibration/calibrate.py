@@ -215,6 +215,7 @@ def _reject_model(settings: CalibrationSettings) -> None:
             "COEFFICIENTS_INVALID",
             f"a lens with {settings.coefficients} coefficients, allowed {', '.join(map(str, MODELS))}",
             "Leave it out to select the number by cross-validation.",
+            {"coefficients": settings.coefficients, "allowed": ", ".join(map(str, MODELS))},
         )
 
 
@@ -242,7 +243,13 @@ def _reject_undetermined(reports: Sequence[ViewReport], parameters: Sequence[Par
         f"the board's directions differ by {widest:.1f} deg, needed {PARALLEL_DEG:g} deg, and the focal "
         f"length has a standard deviation of {100 * unsure:.1f} %, allowed {100 * MAX_FOCAL_SD_RATIO:.0f} %",
         "Take 10 to 20 views with the board tilted by 20 to 45 deg to different sides, near and far.",
-        {"tilt_range_deg": widest, "focal_sd_ratio": unsure},
+        {
+            "tilt_range_deg": widest,
+            "focal_sd_ratio": unsure,
+            "needed_deg": PARALLEL_DEG,
+            "focal_sd_percent": float(100 * unsure),
+            "allowed_percent": 100 * MAX_FOCAL_SD_RATIO,
+        },
     )
 
 

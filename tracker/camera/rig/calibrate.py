@@ -102,6 +102,7 @@ def calibrate_rig(
             "RIG_TOO_SMALL",
             f"a rig of {len(reports)} camera, needed are at least 2",
             "Give the images of two cameras or more.",
+            {"cameras": len(reports)},
         )
     names = tuple(names) if names is not None else tuple(str(n + 1) for n in range(len(shots)))
     agreed = agreement(shots, {name: report.camera for name, report in reports.items()})

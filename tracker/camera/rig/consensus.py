@@ -78,7 +78,7 @@ def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agree
                 f"{far} sees the board together with another camera in {counts[near, far]} views, at least "
                 f"{MIN_PAIRS} are needed",
                 "Take views in which both cameras see the board at the same time.",
-                {"camera": far, "views": counts[near, far]},
+                {"camera": far, "views": counts[near, far], "min_pairs": MIN_PAIRS},
             )
         far_from_near, odd = _place(retained, near, far, whole)
         _reject_disagreement(near, far, len(odd), counts[near, far])
@@ -167,5 +167,5 @@ def _reject_disagreement(near: str, far: str, odd: int, count: int) -> None:
         f"{odd} of {count} views place {far} elsewhere to {near} than the rest, allowed is a third of them",
         "Check that images of both cameras are of the same instant, that no camera was moved, and "
         "that the board has a unique orientation.",
-        {"views": count, "disagree": odd, "cameras": [near, far]},
+        {"views": count, "disagree": odd, "cameras": [near, far], "far": far, "near": near},
     )

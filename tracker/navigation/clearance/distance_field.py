@@ -216,7 +216,7 @@ def _reject_large(grid: Grid) -> None:
             "FIELD_TOO_LARGE",
             f"the distances around the channel would take {nodes} nodes, allowed {MAX_NODES}",
             "Check entry and target of the channel: a channel through a pedicle is 25 to 75 mm long.",
-            {"nodes": nodes},
+            {"nodes": nodes, "max_nodes": MAX_NODES},
         )
 
 
@@ -240,5 +240,10 @@ def _bone_around(
         f"{100.0 * MIN_IN_BONE_RATIO:.0f} % or more",
         "Check the unit and the coordinates of the surface (mm, LPS, of the channel's own CT); where its "
         "cortex has holes, create it again with a lower threshold.",
-        {"in_bone_ratio": ratio},
+        {
+            "in_bone_ratio": ratio,
+            "in_bone_percent": float(100.0 * ratio),
+            "channel": channel.name,
+            "needed_percent": 100.0 * MIN_IN_BONE_RATIO,
+        },
     )

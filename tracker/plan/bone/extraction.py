@@ -211,7 +211,7 @@ def _triangles(hu: npt.NDArray[np.float32], threshold_hu: float) -> tuple[Array,
             "BONE_TOO_LARGE",
             f"at {threshold_hu:.0f} HU the surface has {crossings} vertices, allowed {MAX_VERTICES}",
             "Give a region around one vertebra, or a higher threshold above the noise.",
-            {"vertices": crossings, "threshold_hu": threshold_hu},
+            {"vertices": crossings, "threshold_hu": threshold_hu, "max_vertices": MAX_VERTICES},
         )
     if crossings == 0:
         raise _not_found(threshold_hu)

@@ -45,7 +45,12 @@ class Region:
                 f"the region from {_formatted(low)} to {_formatted(high)} mm is not a box, "
                 "each side must be above 0 mm",
                 "Give the corner with the smallest left, posterior and superior coordinates first.",
-                {"low_lps_mm": low.tolist(), "high_lps_mm": high.tolist()},
+                {
+                    "low_lps_mm": low.tolist(),
+                    "high_lps_mm": high.tolist(),
+                    "low": _formatted(low),
+                    "high": _formatted(high),
+                },
             )
 
     @classmethod
@@ -90,7 +95,14 @@ class Region:
                 f"outside of the CT, which reaches from {_formatted(extent.min(axis=0))} to "
                 f"{_formatted(extent.max(axis=0))} mm",
                 "Give a region inside of the CT, in its own coordinates (LPS).",
-                {"low_lps_mm": self.low_lps_mm.tolist(), "high_lps_mm": self.high_lps_mm.tolist()},
+                {
+                    "low_lps_mm": self.low_lps_mm.tolist(),
+                    "high_lps_mm": self.high_lps_mm.tolist(),
+                    "low": _formatted(self.low_lps_mm),
+                    "high": _formatted(self.high_lps_mm),
+                    "ct_low": _formatted(extent.min(axis=0)),
+                    "ct_high": _formatted(extent.max(axis=0)),
+                },
             )
         return first, last
 

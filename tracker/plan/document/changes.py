@@ -32,7 +32,7 @@ def vertebra_named(plan: PlanDocument, name: str) -> VertebraPlan:
         "VERTEBRA_UNKNOWN",
         f"the plan has no vertebra '{name[:40]}', it has {names}",
         "Add it to the plan, or name one that is there.",
-        {"name": name[:40]},
+        {"name": name[:40], "existing": names},
     )
 
 
@@ -242,7 +242,13 @@ def reject_outside(channel: Channel, volume: Volume) -> None:
             f"channel '{channel.name}' runs from {_formatted(ends[0])} to {_formatted(ends[1])} mm, "
             "which is not all within the CT",
             "Give its ends in mm of this CT (LPS).",
-            {"entry_lps_mm": ends[0].tolist(), "target_lps_mm": ends[1].tolist()},
+            {
+                "entry_lps_mm": ends[0].tolist(),
+                "target_lps_mm": ends[1].tolist(),
+                "channel": channel.name,
+                "entry": _formatted(ends[0]),
+                "target": _formatted(ends[1]),
+            },
         )
 
 

@@ -42,7 +42,7 @@ class PedicleRecord:
                     "CORRECTION_INVALID",
                     f"'{name}' cannot be corrected, allowed are {', '.join(CORRECTABLE)}",
                     "Correct one of these numbers.",
-                    {"name": name},
+                    {"name": name, "allowed": ", ".join(CORRECTABLE)},
                 )
             low, high = CORRECTABLE[name]
             if not low <= value <= high:
@@ -50,7 +50,7 @@ class PedicleRecord:
                     "CORRECTION_INVALID",
                     f"{name} was corrected to {value}, allowed are {low:g} to {high:g}",
                     "Give the number again, in mm or degrees as its name says.",
-                    {name: value},
+                    {name: value, "number": name, "corrected": value, "low": low, "high": high},
                 )
 
     @property

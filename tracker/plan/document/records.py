@@ -98,5 +98,9 @@ class PlanDocument:
                 f"the plan names {len(names)} vertebrae, but only {len(set(names))} different ones: "
                 f"{', '.join(name[:40] for name in names[:30])}",
                 "Give each vertebra its own name.",
-                {"vertebrae": len(names)},
+                {
+                    "vertebrae": len(names),
+                    "different": len(set(names)),
+                    "names": ", ".join(name[:40] for name in names[:30]),
+                },
             )

@@ -104,7 +104,7 @@ def checked_side(side: str) -> Side:
         "SIDE_INVALID",
         f"side is '{side}', allowed are left and right",
         "Name the patient's side.",
-        {"side": side},
+        {"side": side, "given_side": side},
     )
 
 

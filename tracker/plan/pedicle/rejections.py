@@ -45,7 +45,14 @@ def checked_seed(volume: Volume, seed_lps_mm: npt.ArrayLike) -> Array:
             f"the click at {_formatted(seed)} mm lies outside the CT, which reaches from {_formatted(low)} "
             f"to {_formatted(high)} mm (LPS)",
             "Give a point inside the CT, in LPS mm (x to the patient's left, y backwards).",
-            {"seed_lps_mm": seed.tolist(), "low_lps_mm": low.tolist(), "high_lps_mm": high.tolist()},
+            {
+                "seed_lps_mm": seed.tolist(),
+                "low_lps_mm": low.tolist(),
+                "high_lps_mm": high.tolist(),
+                "seed": _formatted(seed),
+                "low": _formatted(low),
+                "high": _formatted(high),
+            },
         )
     return seed
 
@@ -58,7 +65,7 @@ def reject_air(near: Neighbourhood, seed: Array) -> None:
             "SEED_IN_AIR",
             f"the click lies in air or lung: {hu:.0f} HU, bone begins far above {AIR_HU:.0f} HU",
             CLICK,
-            {"seed_hu": hu},
+            {"seed_hu": hu, "air_hu": AIR_HU},
         )
 
 
@@ -94,7 +101,7 @@ def reject_cut(near: Neighbourhood, bar: Bar) -> None:
             "PEDICLE_CUT",
             f"the CT ends within the pedicle: {100.0 * outside:.0f} % of its wall lie outside, none may",
             "Use a series that contains the whole vertebra.",
-            {"outside_ratio": outside},
+            {"outside_ratio": outside, "outside_percent": 100.0 * outside},
         )
 
 
@@ -121,7 +128,12 @@ def reject_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array
             f"{max(distance, 0.0):.1f} mm beside its wall (allowed {allowed:.1f} mm) "
             f"and {beyond:.1f} mm beyond its end (allowed 9 mm)",
             CLICK,
-            {"beside_mm": distance, "beyond_mm": beyond},
+            {
+                "beside_mm": distance,
+                "beyond_mm": beyond,
+                "outside_mm": max(distance, 0.0),
+                "allowed_mm": float(allowed),
+            },
         )
 
 
@@ -144,7 +156,13 @@ def reject_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
         "PEDICLE_NOT_FOUND",
         f"the bone around the click is not a pedicle: {what} (noise {near.noise_hu:.0f} HU)",
         CLICK,
-        {"width_mm": isthmus.width_mm, "height_mm": isthmus.height_mm, "length_mm": bar.length_mm},
+        {
+            "width_mm": isthmus.width_mm,
+            "height_mm": isthmus.height_mm,
+            "length_mm": bar.length_mm,
+            "bone_shape": what,
+            "noise_hu": float(near.noise_hu),
+        },
     )
 
 
@@ -158,7 +176,14 @@ def reject_without_canal(isthmus: Isthmus, beyond_mm: float, allowed_mm: float) 
         f"{_formatted(isthmus.centre_mm)} mm, is hardly the pedicle's: beyond its medial wall bone "
         f"goes on for {beyond_mm:.0f} mm (allowed {allowed_mm:.0f} mm), where the canal should begin",
         "Click nearer to the canal, into the middle of the pedicle; or give its numbers by hand.",
-        {"beyond_mm": beyond_mm, "allowed_mm": allowed_mm, "isthmus_lps_mm": isthmus.centre_mm.tolist()},
+        {
+            "beyond_mm": beyond_mm,
+            "allowed_mm": allowed_mm,
+            "isthmus_lps_mm": isthmus.centre_mm.tolist(),
+            "width_mm": isthmus.width_mm,
+            "height_mm": isthmus.height_mm,
+            "centre": _formatted(isthmus.centre_mm),
+        },
     )
 
 
@@ -176,7 +201,13 @@ def disagreeing(one: Isthmus, other: Isthmus | None) -> PlanError:
         f"the narrowest section from the click is {one.width_mm:.1f} x {one.height_mm:.1f} mm, and {second}; "
         "they should be one",
         "Click into the pedicle's middle; use finer slices if there are any; or give its numbers by hand.",
-        {"width_mm": one.width_mm, "height_mm": one.height_mm, "apart_mm": distance_mm},
+        {
+            "width_mm": one.width_mm,
+            "height_mm": one.height_mm,
+            "apart_mm": distance_mm,
+            "second": second,
+            "other_mm": None if other is None else [other.width_mm, other.height_mm],
+        },
     )
 
 
@@ -187,7 +218,7 @@ def other_side(side: str) -> PlanError:
         "SEED_ON_OTHER_SIDE",
         f"side is {side}, but canal and body lie as they do beside the patient's {other} pedicle",
         f"Click into the {side} pedicle, or measure this one as the {other} one.",
-        {"side": side},
+        {"side": side, "other_side": other},
     )
 
 

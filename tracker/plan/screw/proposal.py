@@ -50,7 +50,14 @@ def propose_screw(
             f"the front; the smallest screw is {thinnest:.1f} x {shortest:.0f} mm and needs "
             f"{0.5 * thinnest + wall_margin_mm:.1f} and {shortest + front_margin_mm:.1f} mm",
             "Move the path to the middle of the pedicle, or add a thinner or shorter screw to the catalogue.",
-            {"nearest_wall_mm": room.min_mm, "front_mm": room.anterior_mm},
+            {
+                "nearest_wall_mm": room.min_mm,
+                "front_mm": room.anterior_mm,
+                "thinnest_mm": float(thinnest),
+                "shortest_mm": float(shortest),
+                "needed_wall_mm": float(0.5 * thinnest + wall_margin_mm),
+                "needed_front_mm": float(shortest + front_margin_mm),
+            },
         )
     return diameters[-1], lengths[-1]
 

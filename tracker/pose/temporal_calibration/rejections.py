@@ -112,7 +112,11 @@ def reject_another_motion(peak_ratio: float, peak_s: float, limits: TimeOffsetLi
             f"needed {limits.min_correlation_ratio:g}",
             "Check that both sources track one rigid tool (the same point where translations are compared), "
             "and that the offset lies within the search range.",
-            {"correlation_ratio": peak_ratio, "min_correlation_ratio": limits.min_correlation_ratio},
+            {
+                "correlation_ratio": peak_ratio,
+                "min_correlation_ratio": limits.min_correlation_ratio,
+                "offset_s": peak_s,
+            },
         )
 
 
@@ -165,5 +169,10 @@ def reject_change(change_s: float, change_sd_s: float, limits: TimeOffsetLimits)
             f"the offset changes by {change_s * 1000.0:+.1f} ms from the first half of the recording to the "
             f"second, allowed {allowed_s * 1000.0:.1f} ms",
             "Check that both clocks count real time: no images timed by a nominal rate, and none lost.",
-            {"change_s": change_s, "allowed_s": allowed_s},
+            {
+                "change_s": change_s,
+                "allowed_s": allowed_s,
+                "change_ms": change_s * 1000.0,
+                "allowed_ms": allowed_s * 1000.0,
+            },
         )

@@ -60,6 +60,7 @@ class ToolModel:
                 "TOOL_AXIS_INVALID",
                 f"the drilling direction of '{name}' is {axis.tolist()}, which has no length",
                 "Give the direction from the marker towards the tip, as three numbers.",
+                {"tool": name, "axis": axis.tolist()},
             )
         rotation = rotation_between([0.0, 0.0, 1.0], axis)
         return cls(

@@ -109,6 +109,6 @@ def _checked(covariances: Sequence[npt.ArrayLike], count: int) -> Array:
             f"the covariances of {count} poses have the shape {stated.shape} or are not positive, "
             f"needed {(count, 6, 6)}",
             "Give each pose its covariance (6, 6) in mm and radians, translation first, or give none.",
-            {"shape": list(stated.shape), "poses": count},
+            {"shape": stated.shape, "poses": count, "needed_shape": (count, 6, 6)},
         )
     return _read_only(stated)

@@ -167,6 +167,7 @@ def _towards_tip(axis: Array, tip_in_marker_mm: Array) -> Array:
             "TOOL_TIP_INVALID",
             f"the tip is {tip_in_marker_mm.tolist()}, which determines no direction from the marker",
             "Give the tip as three numbers in mm in the marker's frame, as pivot calibration returns it.",
+            {"tip": tip_in_marker_mm.tolist()},
         )
     off_deg = angle_between_deg(axis, tip_in_marker_mm)
     nearer_deg = min(off_deg, 180.0 - off_deg)
@@ -182,7 +183,13 @@ def _towards_tip(axis: Array, tip_in_marker_mm: Array) -> Array:
 
 
 def _reject_other_motions(spin_deg: float, wobble_deg: float, gate: ToolGate) -> None:
-    context: dict[str, object] = {"spin_range_deg": spin_deg, "wobble_deg": wobble_deg}
+    context: dict[str, object] = {
+        "spin_range_deg": spin_deg,
+        "spin_deg": spin_deg,
+        "min_spin_deg": gate.min_spin_deg,
+        "wobble_deg": wobble_deg,
+        "max_wobble_deg": gate.max_wobble_deg,
+    }
     if not wobble_deg <= gate.max_wobble_deg:
         raise CalibrationError(
             "SPIN_WOBBLES",

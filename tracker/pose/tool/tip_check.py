@@ -65,6 +65,7 @@ def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | No
             "TOOL_TIP_INVALID",
             f"the tip is {tip.tolist()}, needed three numbers in mm",
             "Give the tip in the marker's frame, as pivot calibration returns it.",
+            {"tip": tip.tolist()},
         )
     different = poses.of(~poses.repeats)
     reject_too_few(different, len(poses), gate)

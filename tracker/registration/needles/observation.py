@@ -55,6 +55,11 @@ class NeedleObservation:
                 f"a needle is {self.length_px:.1f} px long with a spread of {spreads.min():g} px; "
                 f"needed at least {SHORTEST_PX:g} px and a spread above 0",
                 "Mark the needle's exit from the bone, and its head.",
+                {
+                    "length_px": self.length_px,
+                    "spread_px": float(spreads.min()),
+                    "min_length_px": SHORTEST_PX,
+                },
             )
 
     @property

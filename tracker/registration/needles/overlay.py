@@ -57,6 +57,12 @@ class SliceOverlay:
                 f"the slice has scale {self.scale_px_per_mm:g} px/mm and opacity {self.fade_ratio:g}; "
                 f"allowed {MIN_SCALE:g} to {MAX_SCALE:g} px/mm and 0 to 1",
                 "Align the slice with the needles again.",
+                {
+                    "scale_px_per_mm": self.scale_px_per_mm,
+                    "fade_ratio": self.fade_ratio,
+                    "min_scale": MIN_SCALE,
+                    "max_scale": MAX_SCALE,
+                },
             )
         shift.setflags(write=False)
         object.__setattr__(self, "shift_px", shift)

@@ -52,7 +52,7 @@ class PlannedNeedle:
                 f"the place of needle '{self.name[:40]}' has an invalid number; its direction has a spread "
                 f"of {self.direction_sd_deg:g} deg, allowed above 0 to 90",
                 "Give a point and a direction in LPS, and spreads above 0.",
-                {"needle": self.name[:40]},
+                {"needle": self.name[:40], "direction_sd_deg": self.direction_sd_deg},
             )
         arrays["direction_lps"] /= length
         for name, array in arrays.items():
@@ -134,7 +134,10 @@ def reject_poor_geometry(places: Sequence[PlannedNeedle]) -> None:
     names = [one.name for one in places]
     if len(set(names)) < len(names):
         raise PlanError(
-            "NEEDLE_TWICE", f"{len(names)} needles have {len(set(names))} names", "Name each once."
+            "NEEDLE_TWICE",
+            f"{len(names)} needles have {len(set(names))} names",
+            "Name each once.",
+            {"needles": len(names), "names": len(set(names))},
         )
     if len(places) < MIN_NEEDLES:
         raise RegistrationError(

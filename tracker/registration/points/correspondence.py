@@ -75,6 +75,11 @@ def reject_swapped_or_mirrored(
     fits = fre_mm <= settings.max_accepted_fre_mm
     numbers = {"fre_mm": fre_mm, "other_order_fre_mm": alternative.fre_mm, "mirrored_fre_mm": mirrored}
     swapped = _swap_text(alternative.order, pairs.labels)
+    order = {
+        "order": [pairs.labels[one] for one in alternative.order],
+        "exchanged": [pairs.labels[n] for n, one in enumerate(alternative.order) if n != one],
+        "exchanged_points": swapped,
+    }
     if (
         not fits
         and settings.min_improvement_ratio * alternative.fre_mm < fre_mm
@@ -85,7 +90,7 @@ def reject_swapped_or_mirrored(
             f"{swapped} seem to be swapped: as given the points fit to {fre_mm:.2f} mm RMS, "
             f"swapped to {alternative.fre_mm:.2f} mm",
             "Touch these landmarks again, each when its name is shown, or put the rows in order.",
-            {**numbers, "order": [pairs.labels[one] for one in alternative.order]},
+            {**numbers, **order},
         )
     if not fits and settings.min_improvement_ratio * mirrored < fre_mm:
         raise RegistrationError(
@@ -102,7 +107,7 @@ def reject_swapped_or_mirrored(
             f"the points fit to {fre_mm:.2f} mm RMS as given, and better ({alternative.fre_mm:.2f} mm) "
             f"with {swapped} swapped, so that their order is ambiguous",
             "Touch the landmarks again, and choose ones whose distances from each other differ.",
-            {**numbers, "order": [pairs.labels[one] for one in alternative.order]},
+            {**numbers, **order},
         )
     if alternative.fre_mm > max(settings.max_accepted_fre_mm, settings.min_improvement_ratio * fre_mm):
         return ()
@@ -113,7 +118,7 @@ def reject_swapped_or_mirrored(
             f"{fre_mm:.2f} mm RMS as given and to {alternative.fre_mm:.2f} mm swapped",
             remedy="Check on a landmark that was not used, on one side; or add one that makes the sides "
             "differ.",
-            context={**numbers, "order": [pairs.labels[one] for one in alternative.order]},
+            context={**numbers, **order},
         ),
     )
 

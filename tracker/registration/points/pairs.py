@@ -64,6 +64,7 @@ class PointPairs:
                 "POINTS_INVALID",
                 f"{len(fixed)} points have {len(set(labels))} different names",
                 "Give each landmark a unique name.",
+                {"labels": len(fixed), "names": len(set(labels))},
             )
         object.__setattr__(self, "fixed_mm", fixed)
         object.__setattr__(self, "moving_mm", moving)
@@ -104,7 +105,7 @@ def _points(given: Array, which: str) -> Array:
             "POINTS_INVALID",
             f"{wrong} of {len(points)} points {which} have a number that is not finite",
             PAIR_REMEDY,
-            {"not_finite": wrong},
+            {"not_finite": wrong, "points": len(points), "points_where": which},
         )
     points.setflags(write=False)
     return points
@@ -120,6 +121,7 @@ def _covariances(given: Array, count: int) -> Array:
             "POINTS_INVALID",
             f"the covariances of {count} tips have shape {covariances.shape}, or are not positive definite",
             "Give a symmetric positive 3x3 matrix in mm^2 for each tip, or none at all.",
+            {"tips": count, "shape": covariances.shape},
         )
     covariances = 0.5 * (covariances + covariances.transpose(0, 2, 1))
     covariances.setflags(write=False)

@@ -196,13 +196,22 @@ class PointRegistration:
         labels, allowed_mm = self.pairs.labels, self.settings.max_left_out_mm
         outliers = self.outliers(gate)
         names = [labels[index] for index in outliers]
-        named = {"landmark": names[0] if names else None, "possible_outliers": names}
+        misfit = self._outlier_text(outliers)
+        worst = self._worst()
+        named: dict[str, object] = {
+            "landmark": names[0] if names else None,
+            "possible_outliers": names,
+            "without_mm": [self.fre_without_mm[one] for one in outliers],
+            "worst": labels[worst],
+            "worst_mm": float(self.distances_mm[worst]),
+            "misfit": misfit,
+        }
         if not self.fre_rms_mm <= gate.max_fre_mm:
             found.append(
                 RegistrationError(
                     "POINTS_FIT_TOO_LARGE",
                     f"landmarks fit to {self.fre_rms_mm:.2f} mm RMS, allowed {gate.max_fre_mm:.2f} mm; "
-                    f"{self._outlier_text(outliers)}",
+                    f"{misfit}",
                     _outlier_remedy(names),
                     {"fre_rms_mm": self.fre_rms_mm, "allowed_mm": gate.max_fre_mm, **named},
                 )
@@ -212,7 +221,7 @@ class PointRegistration:
                 RegistrationError(
                     "POINT_STRAYS",
                     f"a landmark lies {self._max_left_out_mm:.2f} mm from the fit of all others, allowed "
-                    f"{allowed_mm:.2f} mm; {self._outlier_text(outliers)}",
+                    f"{allowed_mm:.2f} mm; {misfit}",
                     _outlier_remedy(names),
                     {"leave_one_out_mm": self._max_left_out_mm, "allowed_mm": allowed_mm, **named},
                 )
@@ -231,15 +240,20 @@ class PointRegistration:
                         "tre_stated_mm": stated,
                         "tre_without_outlier_mm": alone,
                         "allowed_mm": gate.max_tre_mm,
+                        "outlier_exception": spans,
                     },
                 )
             )
         return tuple(found)
 
+    def _worst(self) -> int:
+        """Return the index of the used point with the largest residual."""
+        return int(np.argmax(np.where(self.used, self.distances_mm, -1.0)))
+
     def _outlier_text(self, outliers: Sequence[int]) -> str:
         labels = self.pairs.labels
         if not outliers:
-            worst = int(np.argmax(np.where(self.used, self.distances_mm, -1.0)))
+            worst = self._worst()
             return f"point {labels[worst]} is off by {self.distances_mm[worst]:.2f} mm"
         fits = [f"without point {labels[one]} to {self.fre_without_mm[one]:.2f} mm" for one in outliers]
         return f"the others fit {', '.join(fits)}"

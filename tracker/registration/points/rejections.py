@@ -58,7 +58,12 @@ def _reject_units(pairs: PointPairs) -> None:
         f"the points spread over {fixed:.4g} mm on the CT and over {moving:.4g} mm as touched, "
         f"{maximum / minimum:.4g} times as much{guess}",
         "Give both in millimetres, and check that both files are of the same landmarks.",
-        {"fixed_spread_mm": fixed, "moving_spread_mm": moving},
+        {
+            "fixed_spread_mm": fixed,
+            "moving_spread_mm": moving,
+            "size_ratio": maximum / minimum,
+            "unit_guess": guess,
+        },
     )
 
 
@@ -79,7 +84,14 @@ def _reject_coincident(points: Array, which: str, labels: tuple[str, ...], min_m
         f"points {labels[first]} and {labels[second]} are {nearest:.2f} mm apart {which}, "
         f"needed {min_mm:g} mm{hint}",
         "Exclude one of them, or touch it again.",
-        {"points": [labels[first], labels[second]], "apart_mm": nearest, "needed_mm": min_mm},
+        {
+            "points": [labels[first], labels[second]],
+            "apart_mm": nearest,
+            "needed_mm": min_mm,
+            "extent_mm": 2.0 * _spread_mm(points),
+            "points_where": which,
+            "spread_hint": hint,
+        },
     )
 
 
@@ -105,5 +117,7 @@ def _reject_line(points: Array, which: str, settings: PointSettings) -> None:
             "beside_mm": float(extents[1]),
             "turn_sd_deg": min(sd_deg, 180.0),
             "allowed_deg": settings.max_rotation_sd_deg,
+            "points_where": which,
+            "needed_mm": float(settings.min_spread_ratio * extents[0]),
         },
     )

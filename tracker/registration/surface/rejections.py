@@ -83,6 +83,7 @@ def reject_sliding(weakest_mode: MotionMode, settings: SurfaceSettings) -> None:
             "direction": weakest_mode.description,
             "sd_mm": min(weakest_mode.sd_mm, 1000.0),
             "allowed_mm": settings.max_slide_sd_mm,
+            "direction_sd": known,
         },
     )
 
@@ -94,5 +95,5 @@ def raise_ambiguous(apart_mm: float, words: str, rms_mm: tuple[float, float]) ->
         f"the sweep fits in two places {apart_mm:.1f} mm apart at the target, mostly {words}: "
         f"to {rms_mm[0]:.2f} and to {rms_mm[1]:.2f} mm RMS",
         "Sweep more of the bone: the base of the spinous process, and both facets.",
-        {"apart_mm": apart_mm, "direction": words},
+        {"apart_mm": apart_mm, "direction": words, "rms_mm": list(rms_mm)},
     )

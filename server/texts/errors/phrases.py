@@ -1,0 +1,147 @@
+"""Phrases in the messages of errors, by the name of the value that has one.
+
+Names are those in `context`. A phrase is given there in English, and its templates are filled with the other
+values of the same error. An error with a phrase that is not listed here stays English.
+"""
+
+from collections.abc import Mapping
+
+from server.texts.language import Text
+
+_NONE: Text = {"en": "", "de": ""}
+
+_ANCHORS: tuple[Text, ...] = (
+    {"en": "camera", "de": "die Kamera"},
+    {"en": "reference", "de": "den Patientenmarker"},
+)
+_SIDES: tuple[Text, ...] = ({"en": "left", "de": "links"}, {"en": "right", "de": "rechts"})
+
+PHRASES: Mapping[str, tuple[Text, ...]] = {
+    "points_where": (
+        {"en": "on the CT", "de": "auf dem CT"},
+        {"en": "as touched", "de": "beim Antasten"},
+        {"en": "marked", "de": "auf dem CT"},
+        {"en": "touched", "de": "beim Antasten"},
+    ),
+    "unit_guess": (
+        _NONE,
+        *(
+            {
+                "en": f": those {where['en']} seem to be in {unit['en']}",
+                "de": f": die {where['de']} sind offenbar in {unit['de']} angegeben",
+            }
+            for where in (
+                {"en": "on the CT", "de": "auf dem CT"},
+                {"en": "as touched", "de": "vom Antasten"},
+            )
+            for unit in (
+                {"en": "metres", "de": "Metern"},
+                {"en": "centimetres", "de": "Zentimetern"},
+                {"en": "inches", "de": "Zoll"},
+            )
+        ),
+    ),
+    "spread_hint": (
+        _NONE,
+        {
+            "en": "; all of them lie within {extent_mm:.3g} mm, as if in metres",
+            "de": "; alle liegen innerhalb von {extent_mm:.3g} mm, wie in Metern angegeben",
+        },
+    ),
+    "exchanged_points": (
+        {
+            "en": "points {exchanged[0]} and {exchanged[1]}",
+            "de": "die Punkte {exchanged[0]} und {exchanged[1]}",
+        },
+        {
+            "en": "points {exchanged[0]}, {exchanged[1]} and {exchanged[2]}",
+            "de": "die Punkte {exchanged[0]}, {exchanged[1]} und {exchanged[2]}",
+        },
+    ),
+    "misfit": (
+        {
+            "en": "point {worst} is off by {worst_mm:.2f} mm",
+            "de": "Punkt {worst} weicht um {worst_mm:.2f} mm ab",
+        },
+        *(
+            {
+                "en": "the others fit "
+                + ", ".join(
+                    f"without point {{possible_outliers[{n}]}} to {{without_mm[{n}]:.2f}} mm"
+                    for n in range(count)
+                ),
+                "de": "die übrigen passen "
+                + ", ".join(
+                    f"ohne Punkt {{possible_outliers[{n}]}} auf {{without_mm[{n}]:.2f}} mm"
+                    for n in range(count)
+                ),
+            }
+            for count in range(1, 5)
+        ),
+    ),
+    "outlier_exception": (
+        _NONE,
+        {
+            "en": ", or {tre_without_outlier_mm:.2f} mm if no landmark is an outlier",
+            "de": ", oder {tre_without_outlier_mm:.2f} mm, wenn keine Landmarke ein Ausreißer ist",
+        },
+    ),
+    "direction_sd": (
+        {"en": "not known at all", "de": "völlig unbestimmt"},
+        {"en": "known to {sd_mm:.1f} mm", "de": "auf {sd_mm:.1f} mm bestimmt"},
+    ),
+    "direction": (
+        {"en": "to the left or right", "de": "nach links oder rechts"},
+        {"en": "to the front or back", "de": "nach vorn oder hinten"},
+        {"en": "along the spine (to head or feet)", "de": "längs der Wirbelsäule (nach kranial oder kaudal)"},
+        {
+            "en": "tilting to head or feet (about the left-right axis)",
+            "de": "kippend nach kranial oder kaudal (um die Querachse)",
+        },
+        {
+            "en": "tilting to the side (about the front-back axis)",
+            "de": "kippend zur Seite (um die sagittale Achse)",
+        },
+        {"en": "turning about the spine's own axis", "de": "drehend um die Längsachse der Wirbelsäule"},
+    ),
+    "unregistered": (
+        {"en": "{vertebra}", "de": "{vertebra}"},
+        {"en": "the vertebra of the active channel", "de": "der Wirbel des Kanals, der gebohrt wird,"},
+    ),
+    "start_anchor": _ANCHORS,
+    "sweep_anchor": _ANCHORS,
+    "reference_setting": (
+        {"en": "names '{reference}'", "de": "nennt „{reference}“"},
+        {"en": "is not set", "de": "ist nicht gesetzt"},
+    ),
+    "collection": (
+        {"en": "collection of board views is", "de": "Aufnahme von Ansichten der Tafel"},
+        {"en": "latency measurement is", "de": "Latenzmessung"},
+        {"en": "readout measurement is", "de": "Messung der Auslesezeit"},
+        {"en": "collection of tool poses is", "de": "Aufnahme von Lagen des Instruments"},
+        {"en": "check is", "de": "Prüfung"},
+        {"en": "registration by landmarks is", "de": "Registrierung mit Landmarken"},
+        {"en": "sweep is", "de": "Abfahrt"},
+    ),
+    "bone_shape": (
+        {
+            "en": "it is {width_mm:.1f} x {height_mm:.1f} mm",
+            "de": "er misst {width_mm:.1f} x {height_mm:.1f} mm",
+        },
+        {
+            "en": "it is equally thick for {length_mm:.0f} mm and joins neither body nor arch",
+            "de": "er ist über {length_mm:.0f} mm gleich dick und geht weder in Wirbelkörper noch Bogen über",
+        },
+    ),
+    "second": (
+        {"en": "from 2 mm aside none is found", "de": "2 mm daneben wird keiner gefunden"},
+        {
+            "en": "from a few mm aside it is {other_mm[0]:.1f} x {other_mm[1]:.1f} mm, "
+            "{apart_mm:.1f} mm away",
+            "de": "wenige mm daneben ist er {other_mm[0]:.1f} x {other_mm[1]:.1f} mm, "
+            "{apart_mm:.1f} mm entfernt",
+        },
+    ),
+    "side": _SIDES,
+    "other_side": _SIDES,
+}

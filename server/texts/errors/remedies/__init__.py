@@ -1,0 +1,20 @@
+"""Remedies of errors, a module an area. Several errors share one."""
+
+from server.texts.errors.remedies.access import ACCESS
+from server.texts.errors.remedies.camera import CAMERA
+from server.texts.errors.remedies.cases import CASES
+from server.texts.errors.remedies.procedure import PROCEDURE
+from server.texts.errors.remedies.recordings import RECORDINGS
+from server.texts.errors.remedies.registration import REGISTRATION
+from server.texts.errors.remedies.tool import TOOL
+from server.texts.language import Text
+
+REMEDIES: tuple[Text, ...] = (
+    *PROCEDURE,
+    *REGISTRATION,
+    *TOOL,
+    *CAMERA,
+    *RECORDINGS,
+    *CASES,
+    *ACCESS,
+)

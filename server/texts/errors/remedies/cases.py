@@ -1,0 +1,125 @@
+"""Remedies of errors of cases, documents and files."""
+
+from server.texts.language import Text
+
+CASES: tuple[Text, ...] = (
+    {
+        "en": "Wait until they are done, or cancel them, then try again.",
+        "de": "Ihr Ende abwarten, oder sie abbrechen, dann erneut versuchen.",
+    },
+    {"en": "Create the {kind} first.", "de": "Dieses Dokument zuerst erstellen: {kind}."},
+    {"en": "Create the {kind} again.", "de": "Dieses Dokument neu erstellen: {kind}."},
+    {
+        "en": "GET /api/cases lists the cases; this one may have been deleted.",
+        "de": "GET /api/cases nennt die Fälle; dieser wurde vielleicht gelöscht.",
+    },
+    {"en": "Close it first.", "de": "Ihn zuerst schließen."},
+    {
+        "en": "Enter the name of the case exactly as in the list; nothing was deleted.",
+        "de": "Den Namen des Falls genau wie in der Liste eingeben; nichts wurde gelöscht.",
+    },
+    {
+        "en": "Load the newest version, and apply the change to it again.",
+        "de": "Die neueste Version laden und die Änderung an ihr wiederholen.",
+    },
+    {
+        "en": "GET /api/cases/{case_id}/files lists the files of the case.",
+        "de": "GET /api/cases/{case_id}/files nennt die Dateien des Falls.",
+    },
+    {
+        "en": "GET /api/cases/{case_id}/documents lists the documents of the case.",
+        "de": "GET /api/cases/{case_id}/documents nennt die Dokumente des Falls.",
+    },
+    {
+        "en": "Import it with the Coaxial that exported it, or a newer one; nothing of it was stored.",
+        "de": "Mit dem Coaxial importieren, das es exportierte, oder einem neueren; nichts davon wurde "
+        "gespeichert.",
+    },
+    {
+        "en": "Give a folder or zip of DICOM slices, a multi-frame DICOM file, or a NIfTI file.",
+        "de": "Einen Ordner oder ein Zip mit DICOM-Schichten angeben, eine Multiframe-DICOM-Datei oder eine "
+        "NIfTI-Datei.",
+    },
+    {"en": "Copy or upload the archive again.", "de": "Das Archiv neu kopieren oder hochladen."},
+    {
+        "en": "Give a folder that contains only this series.",
+        "de": "Einen Ordner angeben, der nur diese Serie enthält.",
+    },
+    {
+        "en": "Create the archive again from the folder of slices; do not use one from an unknown source.",
+        "de": "Das Archiv aus dem Ordner der Schichten neu erstellen; keines aus unbekannter Quelle "
+        "verwenden.",
+    },
+    {
+        "en": "Unpack it with its password, and give the folder or a zip without one.",
+        "de": "Es mit seinem Passwort entpacken, und den Ordner oder ein Zip ohne Passwort angeben.",
+    },
+    {
+        "en": "Give a zip that contains only this series.",
+        "de": "Ein Zip angeben, das nur diese Serie enthält.",
+    },
+    {
+        "en": "Export one pass as a separate series, and give only that series.",
+        "de": "Einen Durchlauf als eigene Serie exportieren und nur diese angeben.",
+    },
+    {
+        "en": "Copy or export the series again; a damaged slice cannot be repaired.",
+        "de": "Die Serie neu kopieren oder exportieren; eine beschädigte Schicht lässt sich nicht "
+        "reparieren.",
+    },
+    {"en": "Copy or convert the file again.", "de": "Die Datei neu kopieren oder umwandeln."},
+    {"en": "Export the whole series again.", "de": "Die ganze Serie neu exportieren."},
+    {
+        "en": "Convert it into a single .nii or .nii.gz.",
+        "de": "In ein einzelnes .nii oder .nii.gz umwandeln.",
+    },
+    {
+        "en": "Export it with fewer triangles; 60000 are enough for a vertebra.",
+        "de": "Mit weniger Dreiecken exportieren; 60000 genügen für einen Wirbel.",
+    },
+    {
+        "en": "Export it with fewer triangles, or as binary STL or PLY.",
+        "de": "Mit weniger Dreiecken exportieren, oder als binäres STL oder PLY.",
+    },
+    {
+        "en": "Export the series again with its geometry; pictures of slices are not usable for planning.",
+        "de": "Exportieren Sie die Serie neu mit ihrer Geometrie; Bilder von Schichten eignen sich "
+        "nicht zur Planung.",
+    },
+    {"en": "Give the original CT.", "de": "Geben Sie das ursprüngliche CT an."},
+    {
+        "en": "Export the original CT series again, in Hounsfield units.",
+        "de": "Exportieren Sie die ursprüngliche CT-Serie neu, in Hounsfield-Einheiten.",
+    },
+    {
+        "en": "Export only the part around the vertebrae, or a series with fewer pixels.",
+        "de": "Exportieren Sie nur den Teil um die Wirbel, oder eine Serie mit weniger Pixeln.",
+    },
+    {
+        "en": "Copy or export the series again; a truncated slice cannot be repaired.",
+        "de": "Kopieren oder exportieren Sie die Serie neu; eine abgeschnittene Schicht lässt sich nicht "
+        "reparieren.",
+    },
+    {
+        "en": "Export the series again uncompressed, or with lossless JPEG 2000, JPEG-LS, JPEG or RLE.",
+        "de": "Exportieren Sie die Serie neu, unkomprimiert oder verlustfrei mit JPEG 2000, JPEG-LS, JPEG "
+        "oder RLE.",
+    },
+    {
+        "en": "Put what is large into a file of the case, and its name into the document.",
+        "de": "Legen Sie Großes in eine Datei des Falls und deren Namen in das Dokument.",
+    },
+    {
+        "en": "Give a suffix such as .npy or .nii.gz, of lower-case letters and digits.",
+        "de": "Geben Sie eine Endung wie .npy oder .nii.gz an, aus Kleinbuchstaben und Ziffern.",
+    },
+    {"en": "Attach the file to another document.", "de": "Hängen Sie die Datei an ein anderes Dokument."},
+    {
+        "en": "Remove it from the dependencies of the document.",
+        "de": "Entfernen Sie sie aus den Abhängigkeiten des Dokuments.",
+    },
+    {
+        "en": "Stop the other one, or set COAXIAL_HOME to another folder.",
+        "de": "Beenden Sie das andere, oder setzen Sie COAXIAL_HOME auf einen anderen Ordner.",
+    },
+)

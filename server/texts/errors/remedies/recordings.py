@@ -1,0 +1,59 @@
+"""Remedies of errors of recordings."""
+
+from server.texts.language import Text
+
+RECORDINGS: tuple[Text, ...] = (
+    {
+        "en": "Load its timeline, and wait until it is ready.",
+        "de": "Ihre Zeitachse laden und warten, bis sie bereit ist.",
+    },
+    {
+        "en": "Give a number from 0 to the number of images minus 1.",
+        "de": "Eine Nummer von 0 bis zur Zahl der Bilder minus 1 angeben.",
+    },
+    {
+        "en": "Choose a part before the damage, or take the recording from another copy.",
+        "de": "Einen Teil vor dem Schaden wählen, oder eine andere Kopie der Aufnahme verwenden.",
+    },
+    {"en": "Open another image.", "de": "Ein anderes Bild öffnen."},
+    {"en": "Load the list of recordings again.", "de": "Die Liste der Aufnahmen neu laden."},
+    {"en": "Free disk space first.", "de": "Zuerst Platz auf der Platte schaffen."},
+    {
+        "en": "Free disk space, then start the recording again. Navigation continues.",
+        "de": "Platz auf der Platte schaffen, dann die Aufnahme neu starten. Die Navigation läuft weiter.",
+    },
+    {
+        "en": "Remove its protection first, if it is no longer needed.",
+        "de": "Zuerst den Schutz aufheben, falls er nicht mehr nötig ist.",
+    },
+    {"en": "Stop the recording first.", "de": "Zuerst die Aufnahme beenden."},
+    {
+        "en": "Set recording.when to manual or navigating, and start the program again.",
+        "de": "recording.when auf manual oder navigating setzen und das Programm neu starten.",
+    },
+    {
+        "en": "State it on the operator's page, or with POST /api/recordings/consent.",
+        "de": "Auf der Seite der Bedienung angeben, oder mit POST /api/recordings/consent.",
+    },
+    {
+        "en": "Delete recordings that are not needed, or raise recording.max_total_gb.",
+        "de": "Nicht benötigte Aufnahmen löschen, oder recording.max_total_gb erhöhen.",
+    },
+    {
+        "en": "Delete recordings that are not needed, or raise recording.max_total_gb; then start again.",
+        "de": "Nicht benötigte Aufnahmen löschen, oder recording.max_total_gb erhöhen; dann neu starten.",
+    },
+    {
+        "en": "Export it again; a new video or part replaces the previous one.",
+        "de": "Neu exportieren; ein neues Video oder ein neuer Teil ersetzt den vorigen.",
+    },
+    {"en": "Choose a recording with images.", "de": "Eine Aufnahme mit Bildern wählen."},
+    {
+        "en": "Replay it with the version of Coaxial that recorded it.",
+        "de": "Spielen Sie sie mit der Version von Coaxial ab, die sie aufnahm.",
+    },
+    {
+        "en": "Review the recording with the version of Coaxial that recorded it.",
+        "de": "Sehen Sie die Aufnahme mit der Version von Coaxial durch, die sie aufnahm.",
+    },
+)

@@ -1,0 +1,271 @@
+"""Remedies of errors of registration and its check."""
+
+from server.texts.language import Text
+
+REGISTRATION: tuple[Text, ...] = (
+    {
+        "en": "Start the registration again with the current plan, camera and tool.",
+        "de": "Die Registrierung mit jetziger Planung, Kamera und jetzigem Instrument neu beginnen.",
+    },
+    {
+        "en": "Calibrate the camera first, or set camera.calibration to its file.",
+        "de": "Zuerst die Kamera kalibrieren, oder camera.calibration auf ihre Datei setzen.",
+    },
+    {"en": "Mark each planned needle once.", "de": "Jede geplante Nadel einmal markieren."},
+    {"en": "Fit the overlay first.", "de": "Zuerst die Schicht anpassen."},
+    {
+        "en": "Clear the view of the marker on the patient, and register again.",
+        "de": "Die Sicht auf den Patientenmarker freimachen und neu registrieren.",
+    },
+    {"en": "Turn it to the camera, and register again.", "de": "Ihn zur Kamera drehen und neu registrieren."},
+    {
+        "en": "Mark more landmarks on the CT in the plan, including one for the check.",
+        "de": "In der Planung weitere Landmarken auf dem CT setzen, auch eine für die Prüfung.",
+    },
+    {
+        "en": "Capture another landmark, or include one that was excluded.",
+        "de": "Eine weitere Landmarke antasten, oder eine ausgeschlossene wieder verwenden.",
+    },
+    {
+        "en": "Touch at least three landmarks that are not collinear; four or more reveal a gross error.",
+        "de": "Mindestens drei Landmarken antasten, die nicht auf einer Geraden liegen; ab vier fällt ein "
+        "grober Fehler auf.",
+    },
+    {
+        "en": "Register by these points only, or by the needles only.",
+        "de": "Nur mit diesen Punkten registrieren, oder nur mit den Nadeln.",
+    },
+    {"en": "Capture it first.", "de": "Sie zuerst antasten."},
+    {
+        "en": "Hold the marker nearer to the camera and in better light, and touch the landmark again.",
+        "de": "Den Marker näher an die Kamera und in besseres Licht halten und die Landmarke neu antasten.",
+    },
+    {
+        "en": "Rest the hand, hold the tip still on the landmark, and touch it again.",
+        "de": "Die Hand auflegen, die Spitze ruhig auf die Landmarke halten und neu antasten.",
+    },
+    {
+        "en": "Touch it again; if the error remains, patient or reference has moved: register again.",
+        "de": "Neu antasten; bleibt der Fehler, hat sich Patient oder Patientenmarker bewegt: neu "
+        "registrieren.",
+    },
+    {
+        "en": "Check on another landmark: one that was used fits by construction.",
+        "de": "An einer anderen Landmarke prüfen: eine verwendete passt immer.",
+    },
+    {
+        "en": "Check that each needle is on its landmark and marked at its entry into the bone.",
+        "de": "Prüfen, dass jede Nadel auf ihrer Landmarke sitzt und an ihrem Eintritt in den Knochen "
+        "markiert ist.",
+    },
+    {
+        "en": "Touch a needle's entry with the tool's tip, or measure the camera's tilt more accurately.",
+        "de": "Den Eintritt einer Nadel mit der Spitze des Instruments antasten, oder die Neigung der "
+        "Kamera genauer messen.",
+    },
+    {
+        "en": "Set a landmark for each needle on the CT, or draw the three lines.",
+        "de": "Auf dem CT für jede Nadel eine Landmarke setzen, oder die drei Linien zeichnen.",
+    },
+    {
+        "en": "Set a landmark for each needle on the CT.",
+        "de": "Auf dem CT für jede Nadel eine Landmarke setzen.",
+    },
+    {"en": "Put the needles farther apart.", "de": "Die Nadeln weiter auseinander setzen."},
+    {
+        "en": "Put one needle farther from the line through the others.",
+        "de": "Eine Nadel weiter weg von der Geraden durch die anderen setzen.",
+    },
+    {
+        "en": "Mark each needle by hand, or remove the drill and other instruments from the image.",
+        "de": "Jede Nadel von Hand markieren, oder Bohrer und andere Instrumente aus dem Bild nehmen.",
+    },
+    {
+        "en": "Undo nudges, or register again: an error of this size needs a new registration.",
+        "de": "Feinkorrekturen rückgängig machen, oder neu registrieren: ein Fehler dieser Größe braucht "
+        "eine neue Registrierung.",
+    },
+    {"en": "The registration is unchanged.", "de": "Die Registrierung ist unverändert."},
+    {
+        "en": "Sweep the tip slowly over both laminae, the base of the spinous process and both facets.",
+        "de": "Mit der Spitze langsam beide Laminae, die Basis des Dornfortsatzes und beide Facetten "
+        "abfahren.",
+    },
+    {
+        "en": "Register by landmarks first, and check that mesh and sweep are both in mm and of this "
+        "vertebra.",
+        "de": "Zuerst mit Landmarken registrieren, und prüfen, dass Netz und Abfahrt in mm sind und zu "
+        "diesem Wirbel gehören.",
+    },
+    {
+        "en": "Keep the tip on bare bone while sweeping, and lift it off only when the sweep has ended.",
+        "de": "Die Spitze beim Abfahren auf freiem Knochen halten und erst am Ende abheben.",
+    },
+    {
+        "en": "Hold the tip in the divot, tilt the tool slowly to all sides by 20 degrees and more, and "
+        "calibrate again.",
+        "de": "Die Spitze in der Mulde halten, das Instrument langsam um 20 Grad und mehr nach allen Seiten "
+        "schwenken und neu kalibrieren.",
+    },
+    {
+        "en": "Hold the tip still on the landmark until it is captured.",
+        "de": "Die Spitze ruhig auf die Landmarke halten, bis sie erfasst ist.",
+    },
+    {
+        "en": "Hold the tip still on the landmark for another {left_s:.1f} s, until it is captured.",
+        "de": "Die Spitze noch {left_s:.1f} s ruhig auf die Landmarke halten, bis sie erfasst ist.",
+    },
+    {
+        "en": "Hold the tip still on the landmark until it is taken.",
+        "de": "Die Spitze ruhig auf die Landmarke halten, bis sie erfasst ist.",
+    },
+    {
+        "en": "Hold the tip still on the landmark for {hold_s:.1f} s at {rate_hz:.1f} images/s, until it is "
+        "taken.",
+        "de": "Die Spitze {hold_s:.1f} s lang (bei {rate_hz:.1f} Bildern/s) ruhig auf die Landmarke halten, "
+        "bis sie erfasst ist.",
+    },
+    {
+        "en": "Turn the markers to the camera, do not cover them, and touch the landmark again.",
+        "de": "Die Marker zur Kamera drehen, nicht verdecken, und die Landmarke neu antasten.",
+    },
+    {
+        "en": "Hold the tip still, and touch the landmark again.",
+        "de": "Die Spitze ruhig halten und die Landmarke neu antasten.",
+    },
+    {
+        "en": "Touch the landmark again when images come faster.",
+        "de": "Die Landmarke neu antasten, wenn die Bilder schneller kommen.",
+    },
+    {
+        "en": "Available tools: {tools}. Calibrate tip and axis first.",
+        "de": "Verfügbare Instrumente: {tools}. Zuerst Spitze und Achse kalibrieren.",
+    },
+    {
+        "en": "Existing landmarks: {landmarks}. Set them in the plan.",
+        "de": "Vorhandene Landmarken: {landmarks}. In der Planung setzen.",
+    },
+    {
+        "en": "Touch these landmarks again, each when its name is shown, or put the rows in order.",
+        "de": "Tasten Sie diese Landmarken neu an, jede, wenn ihr Name angezeigt wird, oder ordnen "
+        "Sie die Zeilen.",
+    },
+    {
+        "en": "Check that left and right landmarks are not exchanged, and that no axis has the "
+        "wrong sign (LPS and RAS differ in two signs, not in one).",
+        "de": "Prüfen Sie, dass linke und rechte Landmarken nicht vertauscht sind und keine Achse "
+        "das falsche Vorzeichen hat (LPS und RAS unterscheiden sich in zwei Vorzeichen, "
+        "nicht in einem).",
+    },
+    {
+        "en": "Touch the landmarks again, and choose ones whose distances from each other differ.",
+        "de": "Tasten Sie die Landmarken neu an, und wählen Sie solche mit verschiedenen Abständen "
+        "voneinander.",
+    },
+    {"en": "Give each landmark a unique name.", "de": "Geben Sie jeder Landmarke einen eigenen Namen."},
+    {
+        "en": "Give a symmetric positive 3x3 matrix in mm^2 for each tip, or none at all.",
+        "de": "Geben Sie zu jeder Spitze eine symmetrische, positive 3x3-Matrix in mm^2 an, oder zu keiner.",
+    },
+    {
+        "en": "Add landmarks, farther apart and around the target, then register again.",
+        "de": "Nehmen Sie weitere Landmarken hinzu, weiter auseinander und um den Zielpunkt herum, "
+        "und registrieren Sie neu.",
+    },
+    {
+        "en": "Give both in millimetres, and check that both files are of the same landmarks.",
+        "de": "Geben Sie beide in Millimetern an, und prüfen Sie, dass beide Dateien dieselben "
+        "Landmarken enthalten.",
+    },
+    {
+        "en": "Exclude one of them, or touch it again.",
+        "de": "Schließen Sie einen davon aus, oder tasten Sie ihn neu an.",
+    },
+    {
+        "en": "Sweep surfaces with other normals too: the flanks of the spinous process, the rims "
+        "of the facets, the transverse processes.",
+        "de": "Fahren Sie auch Flächen anderer Richtung ab: die Seiten des Dornfortsatzes, die "
+        "Ränder der Gelenkfortsätze, die Querfortsätze.",
+    },
+    {
+        "en": "Sweep more of the bone: the base of the spinous process, and both facets.",
+        "de": "Fahren Sie mehr vom Knochen ab: die Basis des Dornfortsatzes und beide Gelenkfortsätze.",
+    },
+    {"en": "Register again.", "de": "Registrieren Sie neu."},
+    {
+        "en": "Give both in mm: the landmark on the CT, the tip in the anchor's frame.",
+        "de": "Geben Sie beide in mm an: die Landmarke auf dem CT, die Spitze im Koordinatensystem "
+        "des Ankers.",
+    },
+    {"en": "Align the slice with the needles again.", "de": "Richten Sie die Schicht neu an den Nadeln aus."},
+    {
+        "en": "Give a point and a direction in LPS, and spreads above 0.",
+        "de": "Geben Sie einen Punkt und eine Richtung in LPS an, und Streuungen über 0.",
+    },
+    {"en": "Name each once.", "de": "Benennen Sie jede einmal."},
+    {
+        "en": "Measure V and H from the camera to the patient, and give their accuracy.",
+        "de": "Messen Sie V und H von der Kamera zum Patienten, und geben Sie ihre Genauigkeit an.",
+    },
+    {
+        "en": "Measure H to the vertebra again, or tilt the camera.",
+        "de": "Messen Sie H bis zum Wirbel neu, oder neigen Sie die Kamera.",
+    },
+    {
+        "en": "Mark the needle's exit from the bone, and its head.",
+        "de": "Markieren Sie den Austritt der Nadel aus dem Knochen und ihren Kopf.",
+    },
+    {
+        "en": "Give a point of the plan in mm, such as the entry point.",
+        "de": "Geben Sie einen Punkt der Planung in mm an, etwa den Eintrittspunkt.",
+    },
+    {
+        "en": "Register by points again, then sweep.",
+        "de": "Registrieren Sie zuerst neu mit Landmarken, und fahren Sie dann ab.",
+    },
+    {
+        "en": "Set reference.marker to the marker on the patient, or register again.",
+        "de": "Setzen Sie reference.marker auf den Patientenmarker, oder registrieren Sie neu.",
+    },
+    {
+        "en": "Touch that landmark again, or leave it out, then register again.",
+        "de": "Tasten Sie diese Landmarke neu an, oder lassen Sie sie weg, und registrieren Sie neu.",
+    },
+    {
+        "en": "Touch {possible_outliers[0]} again, which is the likeliest; {possible_outliers[1]} may "
+        "be mistaken instead, which another landmark would show.",
+        "de": "Tasten Sie {possible_outliers[0]} neu an, die wahrscheinlichste; auch "
+        "{possible_outliers[1]} kann falsch sein, was eine weitere Landmarke zeigen würde.",
+    },
+    {
+        "en": "Touch {possible_outliers[0]} again, which is the likeliest; {possible_outliers[1]} or "
+        "{possible_outliers[2]} may be mistaken instead, which another landmark would show.",
+        "de": "Tasten Sie {possible_outliers[0]} neu an, die wahrscheinlichste; auch "
+        "{possible_outliers[1]} oder {possible_outliers[2]} kann falsch sein, was eine weitere "
+        "Landmarke zeigen würde.",
+    },
+    {
+        "en": "Start a registration by landmarks with a tool.",
+        "de": "Beginnen Sie eine Registrierung mit Landmarken mit einem Instrument.",
+    },
+    {"en": "Start a sweep with a tool.", "de": "Beginnen Sie eine Abfahrt mit einem Instrument."},
+    {"en": "Start a check on a landmark.", "de": "Beginnen Sie eine Prüfung an einer Landmarke."},
+    {
+        "en": "Start a collection for a calibration board.",
+        "de": "Beginnen Sie eine Aufnahme für eine Kalibriertafel.",
+    },
+    {
+        "en": "Start a measurement on the camera's page.",
+        "de": "Beginnen Sie eine Messung auf der Seite der Kamera.",
+    },
+    {"en": "Start a measurement of the readout time.", "de": "Beginnen Sie eine Messung der Auslesezeit."},
+    {
+        "en": "Start a collection for a tool and a purpose.",
+        "de": "Beginnen Sie eine Aufnahme für ein Instrument und einen Zweck.",
+    },
+    {
+        "en": "Add a landmark that lies well beside that line, such as a transverse process, and fit again.",
+        "de": "Nehmen Sie eine Landmarke deutlich neben dieser Geraden hinzu, etwa einen Querfortsatz, und "
+        "passen Sie neu an.",
+    },
+)

@@ -1,0 +1,119 @@
+"""Remedies of errors of calibrating a tool."""
+
+from server.texts.language import Text
+
+TOOL: tuple[Text, ...] = (
+    {"en": "Calibrate the tip by pivoting first.", "de": "Zuerst die Spitze durch Schwenken kalibrieren."},
+    {
+        "en": "Calibrate the tip by pivot calibration first.",
+        "de": "Zuerst die Spitze durch Schwenken kalibrieren.",
+    },
+    {
+        "en": "Give radius_mm and length_mm of the drill or awl, measured or from its drawing.",
+        "de": "radius_mm und length_mm des Bohrers oder der Ahle angeben, gemessen oder aus der Zeichnung.",
+    },
+    {
+        "en": "Tilt the tool with its tip in the divot.",
+        "de": "Das Instrument mit der Spitze in der Mulde schwenken.",
+    },
+    {
+        "en": "Take more images while the tool moves; images of a tool at rest add no information.",
+        "de": "Mehr Bilder aufnehmen, während sich das Instrument bewegt; Bilder in Ruhe bringen nichts "
+        "Neues.",
+    },
+    {
+        "en": "Prevent the tip from slipping, hold the marker in good light near the camera, and calibrate "
+        "again.",
+        "de": "Die Spitze nicht abrutschen lassen, den Marker in gutem Licht nahe der Kamera halten und neu "
+        "kalibrieren.",
+    },
+    {
+        "en": "Take more poses, tilt farther to all sides, and calibrate again.",
+        "de": "Mehr Lagen aufnehmen, weiter nach allen Seiten schwenken und neu kalibrieren.",
+    },
+    {
+        "en": "The tip slipped or was moved: calibrate again in one divot.",
+        "de": "Die Spitze ist abgerutscht oder wurde versetzt: in einer einzigen Mulde neu kalibrieren.",
+    },
+    {
+        "en": "Keep the tip in the divot and the handle still, rotate the tool about its axis by 180 "
+        "degrees, or as far as the marker stays in view, and calibrate again.",
+        "de": "Die Spitze in der Mulde und den Griff ruhig halten, das Instrument um 180 Grad um seine "
+        "Achse drehen, oder so weit der Marker sichtbar bleibt, und neu kalibrieren.",
+    },
+    {
+        "en": "Check that neither the tool nor its marker is bent or loose, and calibrate the tip again.",
+        "de": "Prüfen, dass weder Instrument noch Marker verbogen oder lose ist, und die Spitze neu "
+        "kalibrieren.",
+    },
+    {
+        "en": "Keep the tip in the divot, tilt the tool to all sides, and check again.",
+        "de": "Die Spitze in der Mulde halten, das Instrument nach allen Seiten schwenken und erneut prüfen.",
+    },
+    {
+        "en": "Calibrate the tool with its present marker; a tip is never scaled.",
+        "de": "Kalibrieren Sie das Instrument mit seinem jetzigen Marker; eine Spitze wird nie skaliert.",
+    },
+    {
+        "en": "Give tools.{tool}.calibration, or tip_in_marker_mm and axis_in_marker.",
+        "de": "Geben Sie tools.{tool}.calibration an, oder tip_in_marker_mm und axis_in_marker.",
+    },
+    {
+        "en": "Give the tip in the marker's frame, as pivot calibration returns it.",
+        "de": "Geben Sie die Spitze im Koordinatensystem des Markers an, wie die "
+        "Pivot-Kalibrierung sie liefert.",
+    },
+    {
+        "en": "Give the tip as three numbers in mm in the marker's frame, as pivot calibration returns it.",
+        "de": "Geben Sie die Spitze als drei Zahlen in mm im Koordinatensystem des Markers an, wie "
+        "die Pivot-Kalibrierung sie liefert.",
+    },
+    {
+        "en": "Give the direction from the marker towards the tip, as three numbers.",
+        "de": "Geben Sie die Richtung vom Marker zur Spitze als drei Zahlen an.",
+    },
+    {
+        "en": "Give each pose its covariance (6, 6) in mm and radians, translation first, or give none.",
+        "de": "Geben Sie zu jeder Lage ihre Kovarianz (6, 6) in mm und Radiant an, Translation "
+        "zuerst, oder zu keiner.",
+    },
+    {
+        "en": "Measure the outer side of the printed black square in mm.",
+        "de": "Messen Sie die äußere Seite des gedruckten schwarzen Quadrats in mm.",
+    },
+    {
+        "en": "Use shapes that differ; 'coaxial marker design' with another seed makes another.",
+        "de": "Verwenden Sie verschiedene Formen; „coaxial marker design“ mit einem anderen "
+        "Startwert erzeugt eine andere.",
+    },
+    {
+        "en": "Use a shape that differs from its mirror image; 'coaxial marker design' makes one.",
+        "de": "Verwenden Sie eine Form, die sich von ihrem Spiegelbild unterscheidet; „coaxial "
+        "marker design“ erzeugt eine.",
+    },
+    {"en": "Use a shape without rotational symmetry.", "de": "Verwenden Sie eine Form ohne Drehsymmetrie."},
+    {"en": "Give each marker a unique name.", "de": "Geben Sie jedem Marker einen eigenen Namen."},
+    {
+        "en": "Record longer, and keep the tool in view.",
+        "de": "Nehmen Sie länger auf, und halten Sie das Instrument im Bild.",
+    },
+    {
+        "en": "Record at a higher rate, so that the motion of a hand is resolved.",
+        "de": "Nehmen Sie mit höherer Rate auf, damit die Bewegung einer Hand aufgelöst wird.",
+    },
+    {
+        "en": "Check that both sources track one rigid tool (the same point where translations are "
+        "compared), and that the offset lies within the search range.",
+        "de": "Prüfen Sie, dass beide Quellen ein starres Instrument verfolgen (denselben Punkt, "
+        "wo Translationen verglichen werden), und dass der Zeitversatz im Suchbereich liegt.",
+    },
+    {
+        "en": "Increase the search range, or start both clocks closer together.",
+        "de": "Vergrößern Sie den Suchbereich, oder starten Sie beide Uhren näher beieinander.",
+    },
+    {
+        "en": "Check that both clocks count real time: no images timed by a nominal rate, and none lost.",
+        "de": "Prüfen Sie, dass beide Uhren echte Zeit zählen: keine Bilder mit nomineller Rate, "
+        "keine verlorenen.",
+    },
+)

@@ -1,0 +1,76 @@
+"""Errors of point fits as they are raised are German: their values fill also the templates of phrases."""
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from server.texts import reason_of_error
+from tracker.errors import NavigationError
+from tracker.registration.points import PointGate, PointPairs, register_points
+
+FIXED = np.array([[0.0, 0, 0], [40, 3, 0], [5, 30, 8], [22, 18, 35], [-12, 25, 20]])
+MOVED = FIXED + np.array([0, 0, 9.0]) * (np.arange(5) == 3)[:, None]
+
+
+def raised(fixed: npt.NDArray[np.float64], moving: npt.NDArray[np.float64]) -> NavigationError:
+    """Return the first error of a registration by these points."""
+    try:
+        registration = register_points(PointPairs(fixed_mm=fixed, moving_mm=moving))
+    except NavigationError as error:
+        return error
+    return registration.failures(PointGate(), [[10.0, 10.0, 10.0]])[0]
+
+
+@pytest.mark.parametrize(
+    ("code", "german", "fixed", "moving"),
+    [
+        pytest.param(
+            "POINTS_FIT_TOO_LARGE", "die Landmarken passen auf", FIXED, MOVED, id="a landmark that is off"
+        ),
+        pytest.param(
+            "POINTS_UNIT_SUSPECT", "sind offenbar in Metern", FIXED, FIXED / 1000.0, id="tips in metres"
+        ),
+        pytest.param(
+            "POINTS_COINCIDENT",
+            "die Punkte 1 und 2 liegen auf dem CT 0.00 mm auseinander",
+            FIXED[[0, 0, 2, 3, 4]],
+            FIXED,
+            id="one landmark twice",
+        ),
+        pytest.param(
+            "POINTS_COLLINEAR",
+            "auf dem CT fast auf einer Geraden",
+            FIXED[:, :1] * [1.0, 0.0, 0.0],
+            FIXED[:, :1] * [1.0, 0.0, 0.0],
+            id="landmarks on a line",
+        ),
+        pytest.param(
+            "POINTS_SWAPPED",
+            "die Punkte 1 und 2 sind offenbar vertauscht",
+            FIXED,
+            FIXED[[1, 0, 2, 3, 4]],
+            id="two landmarks in the wrong order",
+        ),
+        pytest.param(
+            "POINTS_MIRRORED", "die Punkte sind gespiegelt", FIXED, FIXED * [1.0, 1.0, -1.0], id="mirrored"
+        ),
+    ],
+)
+def test_an_error_of_a_point_fit_is_german_as_it_is_raised(
+    code: str, german: str, fixed: npt.NDArray[np.float64], moving: npt.NDArray[np.float64]
+) -> None:
+    error = raised(fixed, moving)
+    why = reason_of_error(error)
+    assert why.code == code
+    assert why.is_translated, error.message
+    assert german in why.message["de"]
+    assert why.message["en"] == error.message
+
+
+def test_an_error_with_a_phrase_that_is_not_listed_stays_english() -> None:
+    error = raised(FIXED, MOVED)
+    message = error.message.replace(str(error.context["misfit"]), "the points are odd")
+    odd = type(error)(error.code, message, error.remedy, {**error.context, "misfit": "the points are odd"})
+    why = reason_of_error(odd)
+    assert not why.is_translated
+    assert why.message["de"] == message
