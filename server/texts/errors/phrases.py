@@ -16,6 +16,36 @@ _ANCHORS: tuple[Text, ...] = (
 )
 _SIDES: tuple[Text, ...] = ({"en": "left", "de": "links"}, {"en": "right", "de": "rechts"})
 
+_UNIT_GUESSES: tuple[Text, ...] = tuple(
+    {
+        "en": f": those {where['en']} seem to be in {unit['en']}",
+        "de": f": die {where['de']} sind offenbar in {unit['de']} angegeben",
+    }
+    for where in (
+        {"en": "on the CT", "de": "auf dem CT"},
+        {"en": "as touched", "de": "vom Antasten"},
+    )
+    for unit in (
+        {"en": "metres", "de": "Metern"},
+        {"en": "centimetres", "de": "Zentimetern"},
+        {"en": "inches", "de": "Zoll"},
+    )
+)
+
+_OUTLIER_FITS: tuple[Text, ...] = tuple(
+    {
+        "en": "the others fit "
+        + ", ".join(
+            f"without point {{possible_outliers[{n}]}} to {{without_mm[{n}]:.2f}} mm" for n in range(count)
+        ),
+        "de": "die übrigen passen "
+        + ", ".join(
+            f"ohne Punkt {{possible_outliers[{n}]}} auf {{without_mm[{n}]:.2f}} mm" for n in range(count)
+        ),
+    }
+    for count in range(1, 5)
+)
+
 PHRASES: Mapping[str, tuple[Text, ...]] = {
     "points_where": (
         {"en": "on the CT", "de": "auf dem CT"},
@@ -25,21 +55,7 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "unit_guess": (
         _NONE,
-        *(
-            {
-                "en": f": those {where['en']} seem to be in {unit['en']}",
-                "de": f": die {where['de']} sind offenbar in {unit['de']} angegeben",
-            }
-            for where in (
-                {"en": "on the CT", "de": "auf dem CT"},
-                {"en": "as touched", "de": "vom Antasten"},
-            )
-            for unit in (
-                {"en": "metres", "de": "Metern"},
-                {"en": "centimetres", "de": "Zentimetern"},
-                {"en": "inches", "de": "Zoll"},
-            )
-        ),
+        *_UNIT_GUESSES,
     ),
     "spread_hint": (
         _NONE,
@@ -63,21 +79,7 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
             "en": "point {worst} is off by {worst_mm:.2f} mm",
             "de": "Punkt {worst} weicht um {worst_mm:.2f} mm ab",
         },
-        *(
-            {
-                "en": "the others fit "
-                + ", ".join(
-                    f"without point {{possible_outliers[{n}]}} to {{without_mm[{n}]:.2f}} mm"
-                    for n in range(count)
-                ),
-                "de": "die übrigen passen "
-                + ", ".join(
-                    f"ohne Punkt {{possible_outliers[{n}]}} auf {{without_mm[{n}]:.2f}} mm"
-                    for n in range(count)
-                ),
-            }
-            for count in range(1, 5)
-        ),
+        *_OUTLIER_FITS,
     ),
     "outlier_exception": (
         _NONE,
