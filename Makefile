@@ -139,6 +139,10 @@ test-python: ready $(STAMPS)/dev ## Python and browser tests alone (TESTS="tests
 	@COAXIAL_CHROMIUM="$$(sh .make/find-chromium)" || exit 1; export COAXIAL_CHROMIUM; \
 	sh .make/run-tests $(PYTHON_IN_VENV) $(WORKERS) $(TESTS)
 
+.PHONY: test-lowest
+test-lowest: ready $(STAMPS)/dev ## what the packages are used for, with the lowest versions that pyproject.toml declares
+	@sh .make/test-lowest
+
 .PHONY: benchmark
 benchmark: ready $(STAMPS)/dev ## accuracy and speed of the tracker, compared with its peers, and regressions
 	@$(PYTHON_IN_VENV) -m tests.benchmarks $(ARGS)

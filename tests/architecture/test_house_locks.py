@@ -13,6 +13,7 @@ LOCKS = (
     "requirements.lock",
     "requirements-build.lock",
     "requirements-installer.lock",
+    "requirements-lowest.lock",
     "requirements-node.lock",
     "requirements-docs.lock",
     "requirements-dev.lock",
@@ -65,8 +66,9 @@ def required_packages() -> dict[str, list[str]]:
         "requirements-installer.lock": names(groups["installer"]),
         "requirements-node.lock": names(groups["node"]),
         "requirements-docs.lock": names(groups["docs"]),
+        "requirements-lowest.lock": runtime + names(groups["test"]),
         "requirements-dev.lock": runtime
-        + names(groups["build"] + groups["installer"] + groups["docs"] + groups["dev"]),
+        + names(groups["test"] + groups["build"] + groups["installer"] + groups["docs"] + groups["dev"]),
     }
 
 
@@ -115,3 +117,21 @@ def test_the_page_s_lock_has_hashes_and_names_no_registry() -> None:
     assert packages
     assert [name for name, entry in packages.items() if "resolved" in entry] == []
     assert [name for name, entry in packages.items() if "integrity" not in entry] == []
+
+
+def test_the_lowest_versions_are_those_that_are_declared() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    declared = dict(
+        match.groups()
+        for requirement in project["project"]["dependencies"]
+        if (match := re.match(r"([\w-]+)[>=]=([\d.]+)", requirement))
+    )
+    lowest = versions("requirements-lowest.lock")
+    # Another Numba would compile the tracker again.
+    assert lowest["numba"] == versions("requirements-dev.lock")["numba"]
+    differing = {
+        name: (declared[name], lowest[name.lower()])
+        for name in declared.keys() - {"numba"}
+        if not f"{lowest[name.lower()]}.".startswith(f"{declared[name]}.")
+    }
+    assert differing == {}
