@@ -9,7 +9,6 @@ ROOT = Path(__file__).parents[2]
 ALONE = "tests/browser/test_first_minute.py"
 FILES = (
     "tests/tracker/test_scenes.py",
-    "tests/tracker/test_more_scenes.py",
     "tests/tracker/pose/test_pose.py",
     "tests/server/test_page_in_browser.py",
     "tests/browser/test_dashboard.py",
@@ -30,6 +29,8 @@ def run(folder: Path, *narrowed: str, fails: str = "nothing", code: int = 1) -> 
     python = folder / "python"
     python.write_text(PYTHON)
     python.chmod(0o755)
+    (folder / ".make").mkdir()
+    (folder / ".make" / "test-lowest").write_text("exec ./python lowest versions\n")
     ended = subprocess.run(
         ["sh", str(ROOT / ".make" / "run-tests"), "./python", "4", *narrowed],
         cwd=folder,
@@ -44,7 +45,8 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     code, called = run(tmp_path)
     assert code == 0
     first, *others, alone, judged = called
-    (scenes,) = (requested for requested in others if "-m browser" not in requested)
+    others.remove("lowest versions")
+    (tracker,) = (requested for requested in others if "-m browser" not in requested)
     ageless, browser = (requested for requested in others if "-m browser" in requested)
     in_parallel = {word for word in ageless.split() if word.endswith(".py")}
     assert all((ROOT / file).is_file() for file in in_parallel)
@@ -54,8 +56,8 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     # The first part runs everything except browser tests and its exclusions.
     assert "-m not browser" in first
     left_out = {word.removeprefix("--ignore=") for word in first.split() if word.startswith("--ignore=")}
-    assert left_out == set(FILES[:2]) == {word for word in scenes.split() if word.endswith(".py")}
-    assert {"tests/browser", FILES[3]} <= set(browser.split())
+    assert left_out == {"tests/tracker"} == {tracker.split()[-1]}
+    assert {"tests/browser", FILES[2]} <= set(browser.split())
     # The exclusions run last, on their own.
     assert f"--ignore={ALONE}" in browser.split()
     assert alone.split()[-1] == ALONE
@@ -67,7 +69,8 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     "fails",
     [
         "not browser",
-        "pytest-scenes.xml",
+        "pytest-tracker.xml",
+        "lowest versions",
         "pytest-ageless.xml",
         "pytest-browser.xml",
         "pytest-alone.xml",
@@ -77,7 +80,7 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
 def test_the_run_fails_with_any_of_its_parts(tmp_path: Path, fails: str) -> None:
     code, called = run(tmp_path, fails=fails)
     assert code != 0
-    assert len(called) == (6 if fails == "some-test-passed" else 5)
+    assert len(called) == (7 if fails == "some-test-passed" else 6)
 
 
 def test_what_is_narrowed_runs_in_two_parts_of_which_one_may_be_empty(tmp_path: Path) -> None:
