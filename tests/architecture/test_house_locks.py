@@ -121,11 +121,10 @@ def test_the_page_s_lock_has_hashes_and_names_no_registry() -> None:
 
 def test_the_lowest_versions_are_those_that_are_declared() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    declared = dict(
-        match.groups()
-        for requirement in project["project"]["dependencies"]
-        if (match := re.match(r"([\w-]+)[>=]=([\d.]+)", requirement))
+    matches = (
+        re.match(r"([\w-]+)[>=]=([\d.]+)", requirement) for requirement in project["project"]["dependencies"]
     )
+    declared = {match[1]: match[2] for match in matches if match}
     lowest = versions("requirements-lowest.lock")
     # Another Numba would compile the tracker again.
     assert lowest["numba"] == versions("requirements-dev.lock")["numba"]
