@@ -123,7 +123,7 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
         {"en": "collection of tool poses is", "de": "Aufnahme von Lagen des Instruments"},
         {"en": "check is", "de": "Prüfung"},
         {"en": "registration by landmarks is", "de": "Registrierung mit Landmarken"},
-        {"en": "sweep is", "de": "Abfahrt"},
+        {"en": "sweep is", "de": "Abfahren"},
     ),
     "bone_shape": (
         {

@@ -94,7 +94,7 @@ REGISTRATION: tuple[Text, ...] = (
     {
         "en": "Register by landmarks first, and check that mesh and sweep are both in mm and of this "
         "vertebra.",
-        "de": "Zuerst mit Landmarken registrieren, und prüfen, dass Netz und Abfahrt in mm sind und zu "
+        "de": "Zuerst mit Landmarken registrieren, und prüfen, dass Netz und Messpunkte in mm sind und zu "
         "diesem Wirbel gehören.",
     },
     {
@@ -244,7 +244,7 @@ REGISTRATION: tuple[Text, ...] = (
         "en": "Start a registration by landmarks with a tool.",
         "de": "Eine Registrierung mit Landmarken beginnen und dazu ein Instrument wählen.",
     },
-    {"en": "Start a sweep with a tool.", "de": "Eine Abfahrt mit einem Instrument beginnen."},
+    {"en": "Start a sweep with a tool.", "de": "Das Abfahren mit einem Instrument beginnen."},
     {"en": "Start a check on a landmark.", "de": "Eine Prüfung an einer Landmarke beginnen."},
     {
         "en": "Start a collection for a calibration board.",
