@@ -241,7 +241,7 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
             "de": "Landmarke und Spitze bestehen nicht aus je drei endlichen Zahlen",
         },
     ),
-    "COLLECTION_MISSING": ({"en": "no {collection} in progress", "de": "{collection}"},),
+    "COLLECTION_MISSING": ({"en": "no {collection} in progress", "de": "es läuft {collection}"},),
     "NEEDLE_PLACE_INVALID": (
         {
             "en": "the place of needle '{needle}' has an invalid number; its direction has a spread of "
