@@ -5,7 +5,7 @@ from server.texts.language import Text
 CASES: tuple[Text, ...] = (
     {
         "en": "Wait until they are done, or cancel them, then try again.",
-        "de": "Ihr Ende abwarten, oder sie abbrechen, dann erneut versuchen.",
+        "de": "Das Ende dieser Vorgänge abwarten, oder sie abbrechen, dann erneut versuchen.",
     },
     {"en": "Create the {kind} first.", "de": "Dieses Dokument zuerst erstellen: {kind}."},
     {"en": "Create the {kind} again.", "de": "Dieses Dokument neu erstellen: {kind}."},

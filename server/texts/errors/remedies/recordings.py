@@ -5,7 +5,7 @@ from server.texts.language import Text
 RECORDINGS: tuple[Text, ...] = (
     {
         "en": "Load its timeline, and wait until it is ready.",
-        "de": "Ihre Zeitachse laden und warten, bis sie bereit ist.",
+        "de": "Die Zeitachse der Aufnahme laden und warten, bis sie bereit ist.",
     },
     {
         "en": "Give a number from 0 to the number of images minus 1.",
