@@ -117,13 +117,13 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
         {"en": "is not set", "de": "ist nicht gesetzt"},
     ),
     "collection": (
-        {"en": "collection of board views is", "de": "Aufnahme von Ansichten der Tafel"},
-        {"en": "latency measurement is", "de": "Latenzmessung"},
-        {"en": "readout measurement is", "de": "Messung der Auslesezeit"},
-        {"en": "collection of tool poses is", "de": "Aufnahme von Lagen des Instruments"},
-        {"en": "check is", "de": "Prüfung"},
-        {"en": "registration by landmarks is", "de": "Registrierung mit Landmarken"},
-        {"en": "sweep is", "de": "Abfahrt"},
+        {"en": "collection of board views is", "de": "keine Aufnahme von Ansichten der Tafel"},
+        {"en": "latency measurement is", "de": "keine Latenzmessung"},
+        {"en": "readout measurement is", "de": "keine Messung der Auslesezeit"},
+        {"en": "collection of tool poses is", "de": "keine Aufnahme von Lagen des Instruments"},
+        {"en": "check is", "de": "keine Prüfung"},
+        {"en": "registration by landmarks is", "de": "keine Registrierung mit Landmarken"},
+        {"en": "sweep is", "de": "kein Abfahren"},
     ),
     "bone_shape": (
         {

@@ -207,14 +207,14 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
     "SURFACE_DISAGREES": (
         {
             "en": "only {used_ratio:.0%} of the sweep lies on the bone, needed {needed_ratio:.0%}",
-            "de": "nur {used_ratio:.0%} der Abfahrt liegen auf dem Knochen, nötig {needed_ratio:.0%}",
+            "de": "nur {used_ratio:.0%} der Messpunkte liegen auf dem Knochen, nötig {needed_ratio:.0%}",
         },
     ),
     "SURFACE_START_FAR": (
         {
             "en": "at the start the sweep lies {median_mm:.1f} mm from the bone (median), allowed "
             "{allowed_mm:g} mm",
-            "de": "zu Beginn liegt die Abfahrt {median_mm:.1f} mm vom Knochen (Median), erlaubt "
+            "de": "zu Beginn liegen die Messpunkte {median_mm:.1f} mm vom Knochen (Median), erlaubt "
             "{allowed_mm:g} mm",
         },
     ),
@@ -241,7 +241,7 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
             "de": "Landmarke und Spitze bestehen nicht aus je drei endlichen Zahlen",
         },
     ),
-    "COLLECTION_MISSING": ({"en": "no {collection} in progress", "de": "{collection}"},),
+    "COLLECTION_MISSING": ({"en": "no {collection} in progress", "de": "es läuft {collection}"},),
     "NEEDLE_PLACE_INVALID": (
         {
             "en": "the place of needle '{needle}' has an invalid number; its direction has a spread of "
@@ -391,7 +391,7 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the sweep fits in two places {apart_mm:.1f} mm apart at the target, mostly "
             "{direction}: to {rms_mm[0]:.2f} and to {rms_mm[1]:.2f} mm RMS",
-            "de": "die Abfahrt passt an zwei Orten, die am Zielpunkt {apart_mm:.1f} mm auseinander "
+            "de": "die Messpunkte passen an zwei Orten, die am Zielpunkt {apart_mm:.1f} mm auseinander "
             "liegen, vor allem {direction}: auf {rms_mm[0]:.2f} und auf {rms_mm[1]:.2f} mm RMS",
         },
     ),
@@ -399,15 +399,15 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the sweep slides on the bone {direction}: there it is {direction_sd} at the target, "
             "allowed {allowed_mm:g} mm",
-            "de": "die Abfahrt lässt sich auf dem Knochen verschieben, {direction}: dort ist sie am "
-            "Zielpunkt {direction_sd}, erlaubt {allowed_mm:g} mm",
+            "de": "die Messpunkte lassen sich auf dem Knochen verschieben, {direction}: in dieser Richtung "
+            "ist die Registrierung am Zielpunkt {direction_sd}, erlaubt {allowed_mm:g} mm",
         },
     ),
     "SWEEP_ANCHOR_DIFFERS": (
         {
             "en": "{title} is anchored to the {start_anchor}, but a sweep would be anchored to the "
             "{sweep_anchor}",
-            "de": "{title} bezieht sich auf {start_anchor}, die Abfahrt bezöge sich aber auf {sweep_anchor}",
+            "de": "{title} bezieht sich auf {start_anchor}, das Abfahren bezöge sich aber auf {sweep_anchor}",
         },
     ),
     "VIEW_INVALID": (

@@ -1,5 +1,6 @@
 """Translations of errors: the same values in each language, and only for the message that was raised."""
 
+import re
 from string import Formatter
 
 import pytest
@@ -51,6 +52,18 @@ def test_each_text_is_in_both_languages_with_the_same_values(code: str, text: Te
     assert text.keys() == {"en", "de"}, code
     assert all(text.values()) or code in PHRASES, code
     assert fields(text["en"]) == fields(text["de"]), code
+
+
+@pytest.mark.parametrize(("code", "text"), TEMPLATES)
+def test_german_has_words_of_its_own_where_english_has(code: str, text: Text) -> None:
+    own = {language: re.sub(r"{[^}]*}", "", sentence).strip() for language, sentence in text.items()}
+    assert bool(own["en"]) == bool(own["de"]), code
+
+
+@pytest.mark.parametrize(("code", "text"), TEMPLATES)
+def test_german_does_not_address_the_reader(code: str, text: Text) -> None:
+    # At the start of a sentence "Sie" and "Ihr" may be a thing's pronoun; elsewhere they are the reader's.
+    assert not re.search(r"[\w,;:] (Sie|Ihr(e[mnrs]?)?|Ihnen)\b", text["de"]), code
 
 
 def test_no_english_template_is_listed_twice() -> None:

@@ -94,41 +94,41 @@ CAMERA: tuple[Text, ...] = (
     },
     {
         "en": "Leave it out to select the number by cross-validation.",
-        "de": "Lassen Sie die Angabe weg, um die Zahl durch Kreuzvalidierung zu wählen.",
+        "de": "Die Angabe weglassen, um die Zahl durch Kreuzvalidierung zu wählen.",
     },
     {
         "en": "Take 10 to 20 views with the board tilted by 20 to 45 deg to different sides, near and far.",
-        "de": "Nehmen Sie 10 bis 20 Ansichten auf, mit der Tafel um 20 bis 45° nach verschiedenen "
-        "Seiten geneigt, nah und fern.",
+        "de": "10 bis 20 Ansichten aufnehmen, mit der Tafel um 20 bis 45° nach verschiedenen Seiten "
+        "geneigt, nah und fern.",
     },
     {
         "en": "Move the board a little slower or use more light, so that it is sharp, and keep all "
         "of it in the picture.",
-        "de": "Bewegen Sie die Tafel etwas langsamer oder verwenden Sie mehr Licht, damit sie "
-        "scharf ist, und halten Sie sie ganz im Bild.",
+        "de": "Die Tafel etwas langsamer bewegen oder mehr Licht verwenden, damit sie scharf ist, und "
+        "sie ganz im Bild halten.",
     },
     {
         "en": "Give the images of two cameras or more.",
-        "de": "Geben Sie die Bilder von zwei oder mehr Kameras an.",
+        "de": "Die Bilder von zwei oder mehr Kameras angeben.",
     },
     {
         "en": "Check that images of all cameras are of the same instant, and that no camera was moved.",
-        "de": "Prüfen Sie, dass die Bilder aller Kameras vom selben Zeitpunkt sind und keine "
-        "Kamera bewegt wurde.",
+        "de": "Prüfen, dass die Bilder aller Kameras vom selben Zeitpunkt sind und keine Kamera "
+        "bewegt wurde.",
     },
     {
         "en": "Take views in which both cameras see the board at the same time.",
-        "de": "Nehmen Sie Ansichten auf, in denen beide Kameras die Tafel zugleich sehen.",
+        "de": "Ansichten aufnehmen, in denen beide Kameras die Tafel zugleich sehen.",
     },
     {
         "en": "Check that images of both cameras are of the same instant, that no camera was "
         "moved, and that the board has a unique orientation.",
-        "de": "Prüfen Sie, dass die Bilder beider Kameras vom selben Zeitpunkt sind, keine Kamera "
-        "bewegt wurde und die Tafel eine eindeutige Ausrichtung hat.",
+        "de": "Prüfen, dass die Bilder beider Kameras vom selben Zeitpunkt sind, keine Kamera bewegt "
+        "wurde und die Tafel eine eindeutige Ausrichtung hat.",
     },
     {
         "en": "Fit the plane to other points than those that are measured.",
-        "de": "Passen Sie die Ebene an andere Punkte an als die gemessenen.",
+        "de": "Die Ebene an andere Punkte anpassen als die, die gemessen werden.",
     },
     {
         "en": "A camera file has matrix (3 rows of 3), distortion (4, 5, 8, 12 or 14 numbers) and "
@@ -136,32 +136,32 @@ CAMERA: tuple[Text, ...] = (
         "de": "Eine Kameradatei hat matrix (3 Zeilen zu 3), distortion (4, 5, 8, 12 oder 14 "
         "Zahlen) und size_wh_px (Breite, Höhe).",
     },
-    {"en": "Calibrate the camera at that size.", "de": "Kalibrieren Sie die Kamera mit dieser Größe."},
+    {"en": "Calibrate the camera at that size.", "de": "Die Kamera mit dieser Größe kalibrieren."},
     {
         "en": "Set the camera to {width_before}x{height_before} px and measure again, or calibrate "
         "it at {width}x{height} px.",
-        "de": "Stellen Sie die Kamera auf {width_before}x{height_before} px und messen Sie neu, "
-        "oder kalibrieren Sie sie mit {width}x{height} px.",
+        "de": "Die Kamera auf {width_before}x{height_before} px stellen und neu messen, oder sie mit "
+        "{width}x{height} px kalibrieren.",
     },
     {
         "en": "Wait until the video runs smoothly, and start again.",
-        "de": "Warten Sie, bis das Bild ruckfrei läuft, und beginnen Sie neu.",
+        "de": "Warten, bis das Bild ruckfrei läuft, und neu beginnen.",
     },
     {
         "en": "Give the value of its data sheet, 0 (a global shutter) to {max_ms:g} ms.",
-        "de": "Geben Sie den Wert des Datenblatts an, 0 (Global Shutter) bis {max_ms:g} ms.",
+        "de": "Den Wert des Datenblatts angeben, 0 (Global Shutter) bis {max_ms:g} ms.",
     },
     {
         "en": "Set the camera to a smaller size, at most 7680x4320 px.",
-        "de": "Stellen Sie die Kamera auf eine kleinere Größe, höchstens 7680x4320 px.",
+        "de": "Die Kamera auf eine kleinere Größe stellen, höchstens 7680x4320 px.",
     },
     {
         "en": "Start it with coaxial run --source phone.",
-        "de": "Starten Sie sie mit coaxial run --source phone.",
+        "de": "Den Server mit coaxial run --source phone starten.",
     },
     {
         "en": "Restart the program; if the error persists, send the server log to the maintainer.",
-        "de": "Starten Sie das Programm neu; bleibt der Fehler, senden Sie das Protokoll des "
-        "Servers an die Betreuung.",
+        "de": "Das Programm neu starten; bleibt der Fehler, das Protokoll des Servers an die Betreuung "
+        "senden.",
     },
 )

@@ -5,7 +5,7 @@ from server.texts.language import Text
 CASES: tuple[Text, ...] = (
     {
         "en": "Wait until they are done, or cancel them, then try again.",
-        "de": "Ihr Ende abwarten, oder sie abbrechen, dann erneut versuchen.",
+        "de": "Das Ende dieser Vorgänge abwarten, oder sie abbrechen, dann erneut versuchen.",
     },
     {"en": "Create the {kind} first.", "de": "Dieses Dokument zuerst erstellen: {kind}."},
     {"en": "Create the {kind} again.", "de": "Dieses Dokument neu erstellen: {kind}."},
@@ -83,43 +83,43 @@ CASES: tuple[Text, ...] = (
     },
     {
         "en": "Export the series again with its geometry; pictures of slices are not usable for planning.",
-        "de": "Exportieren Sie die Serie neu mit ihrer Geometrie; Bilder von Schichten eignen sich "
-        "nicht zur Planung.",
+        "de": "Die Serie mit ihrer Geometrie neu exportieren; Bilder von Schichten eignen sich nicht zur "
+        "Planung.",
     },
-    {"en": "Give the original CT.", "de": "Geben Sie das ursprüngliche CT an."},
+    {"en": "Give the original CT.", "de": "Das ursprüngliche CT angeben."},
     {
         "en": "Export the original CT series again, in Hounsfield units.",
-        "de": "Exportieren Sie die ursprüngliche CT-Serie neu, in Hounsfield-Einheiten.",
+        "de": "Die ursprüngliche CT-Serie neu exportieren, in Hounsfield-Einheiten.",
     },
     {
         "en": "Export only the part around the vertebrae, or a series with fewer pixels.",
-        "de": "Exportieren Sie nur den Teil um die Wirbel, oder eine Serie mit weniger Pixeln.",
+        "de": "Nur den Teil um die Wirbel exportieren, oder eine Serie mit weniger Pixeln.",
     },
     {
         "en": "Copy or export the series again; a truncated slice cannot be repaired.",
-        "de": "Kopieren oder exportieren Sie die Serie neu; eine abgeschnittene Schicht lässt sich nicht "
+        "de": "Die Serie neu kopieren oder exportieren; eine abgeschnittene Schicht lässt sich nicht "
         "reparieren.",
     },
     {
         "en": "Export the series again uncompressed, or with lossless JPEG 2000, JPEG-LS, JPEG or RLE.",
-        "de": "Exportieren Sie die Serie neu, unkomprimiert oder verlustfrei mit JPEG 2000, JPEG-LS, JPEG "
+        "de": "Die Serie neu exportieren, unkomprimiert oder verlustfrei mit JPEG 2000, JPEG-LS, JPEG "
         "oder RLE.",
     },
     {
         "en": "Put what is large into a file of the case, and its name into the document.",
-        "de": "Legen Sie Großes in eine Datei des Falls und deren Namen in das Dokument.",
+        "de": "Große Daten in einer Datei des Falls speichern und deren Namen in das Dokument schreiben.",
     },
     {
         "en": "Give a suffix such as .npy or .nii.gz, of lower-case letters and digits.",
-        "de": "Geben Sie eine Endung wie .npy oder .nii.gz an, aus Kleinbuchstaben und Ziffern.",
+        "de": "Eine Endung wie .npy oder .nii.gz angeben, aus Kleinbuchstaben und Ziffern.",
     },
-    {"en": "Attach the file to another document.", "de": "Hängen Sie die Datei an ein anderes Dokument."},
+    {"en": "Attach the file to another document.", "de": "Die Datei an ein anderes Dokument anhängen."},
     {
         "en": "Remove it from the dependencies of the document.",
-        "de": "Entfernen Sie sie aus den Abhängigkeiten des Dokuments.",
+        "de": "Die Identität aus den Abhängigkeiten des Dokuments entfernen.",
     },
     {
         "en": "Stop the other one, or set COAXIAL_HOME to another folder.",
-        "de": "Beenden Sie das andere, oder setzen Sie COAXIAL_HOME auf einen anderen Ordner.",
+        "de": "Das andere Coaxial beenden, oder COAXIAL_HOME auf einen anderen Ordner setzen.",
     },
 )

@@ -212,154 +212,153 @@ PROCEDURE: tuple[Text, ...] = (
     },
     {
         "en": "Give x, y, z in mm of the patient's LPS coordinates.",
-        "de": "Geben Sie x, y, z in mm in LPS-Koordinaten des Patienten an.",
+        "de": "x, y, z in mm in den LPS-Koordinaten des Patienten angeben.",
     },
     {
         "en": "Give a point inside the CT, in LPS mm (x to the patient's left, y backwards).",
-        "de": "Geben Sie einen Punkt im CT an, in LPS-mm (x nach links vom Patienten, y nach hinten).",
+        "de": "Einen Punkt im CT angeben, in LPS-mm (x zur linken Seite des Patienten, y nach hinten).",
     },
     {
         "en": "Click into the middle of the pedicle, on a slice that shows it joined to body and arch.",
-        "de": "Tippen Sie auf die Mitte des Pedikels, in einer Schicht, die ihn mit Wirbelkörper und Bogen "
+        "de": "Auf die Mitte des Pedikels tippen, in einer Schicht, die ihn mit Wirbelkörper und Bogen "
         "verbunden zeigt.",
     },
     {
         "en": "Use a series that contains the whole vertebra.",
-        "de": "Verwenden Sie eine Serie, die den ganzen Wirbel enthält.",
+        "de": "Eine Serie verwenden, die den ganzen Wirbel enthält.",
     },
     {
         "en": "Click nearer to the canal, into the middle of the pedicle; or give its numbers by hand.",
-        "de": "Tippen Sie näher am Spinalkanal auf die Mitte des Pedikels, oder geben Sie seine "
-        "Maße von Hand an.",
+        "de": "Näher am Spinalkanal auf die Mitte des Pedikels tippen, oder seine Maße von Hand angeben.",
     },
     {
         "en": "Click into the pedicle's middle; use finer slices if there are any; or give its "
         "numbers by hand.",
-        "de": "Tippen Sie auf die Mitte des Pedikels, verwenden Sie feinere Schichten, falls "
-        "vorhanden, oder geben Sie seine Maße von Hand an.",
+        "de": "Auf die Mitte des Pedikels tippen, feinere Schichten verwenden, falls vorhanden, oder "
+        "seine Maße von Hand angeben.",
     },
     {
         "en": "Click into the {side} pedicle, or measure this one as the {other_side} one.",
-        "de": "Tippen Sie auf den Pedikel {side}, oder messen Sie diesen als den Pedikel {other_side}.",
+        "de": "Auf den Pedikel {side} tippen, oder diesen als den Pedikel {other_side} messen.",
     },
-    {"en": "Click into it first.", "de": "Tippen Sie zuerst auf ihn."},
+    {"en": "Click into it first.", "de": "Zuerst auf diesen Pedikel tippen und ihn messen."},
     {
         "en": "Lay the channel first, from the measured pedicle or by hand.",
-        "de": "Legen Sie zuerst den Kanal, durch den gemessenen Pedikel oder von Hand.",
+        "de": "Zuerst den Kanal legen, durch den gemessenen Pedikel oder von Hand.",
     },
     {
         "en": "Add it to the plan, or name one that is there.",
-        "de": "Nehmen Sie ihn in die Planung auf, oder nennen Sie einen vorhandenen.",
+        "de": "Den Wirbel in die Planung aufnehmen, oder einen vorhandenen angeben.",
     },
-    {"en": "Give its ends in mm of this CT (LPS).", "de": "Geben Sie seine Enden in mm dieses CT an (LPS)."},
-    {"en": "Correct one of these numbers.", "de": "Korrigieren Sie eine dieser Zahlen."},
+    {"en": "Give its ends in mm of this CT (LPS).", "de": "Seine Enden in mm dieses CT (LPS) angeben."},
+    {"en": "Correct one of these numbers.", "de": "Eine dieser Zahlen korrigieren."},
     {
         "en": "Give the number again, in mm or degrees as its name says.",
-        "de": "Geben Sie die Zahl neu an, in mm oder Grad, wie ihr Name sagt.",
+        "de": "Die Zahl neu angeben, in mm oder Grad, wie ihr Name sagt.",
     },
     {
         "en": "Set entry point, target and diameter of the channel again.",
-        "de": "Setzen Sie Eintrittspunkt, Zielpunkt und Durchmesser des Kanals neu.",
+        "de": "Eintrittspunkt, Zielpunkt und Durchmesser des Kanals neu setzen.",
     },
-    {"en": "Plan the channels on this CT again.", "de": "Planen Sie die Kanäle auf diesem CT neu."},
+    {"en": "Plan the channels on this CT again.", "de": "Die Kanäle auf diesem CT neu planen."},
     {
         "en": "Give it a name and set it on the CT in LPS mm.",
-        "de": "Geben Sie ihr einen Namen, und setzen Sie sie auf dem CT in LPS-mm.",
+        "de": "Der Landmarke einen Namen geben und sie auf dem CT setzen, in LPS-mm.",
     },
-    {"en": "Give each landmark its own name.", "de": "Geben Sie jeder Landmarke einen eigenen Namen."},
-    {"en": "Set it on this CT, in LPS mm.", "de": "Setzen Sie sie auf diesem CT, in LPS-mm."},
-    {"en": "Give each vertebra its own name.", "de": "Geben Sie jedem Wirbel einen eigenen Namen."},
-    {"en": "Name the patient's side.", "de": "Nennen Sie die Seite des Patienten."},
+    {"en": "Give each landmark its own name.", "de": "Jeder Landmarke einen eigenen Namen geben."},
+    {"en": "Set it on this CT, in LPS mm.", "de": "Die Landmarke auf diesem CT setzen, in LPS-mm."},
+    {"en": "Give each vertebra its own name.", "de": "Jedem Wirbel einen eigenen Namen geben."},
+    {"en": "Name the patient's side.", "de": "Die Seite des Patienten angeben."},
     {
         "en": "Click into a pedicle first, or choose the slice by hand.",
-        "de": "Tippen Sie zuerst auf einen Pedikel, oder wählen Sie die Schicht von Hand.",
+        "de": "Zuerst auf einen Pedikel tippen, oder die Schicht von Hand wählen.",
     },
     {
         "en": "Measure the other pedicle too, or give the middle by hand.",
-        "de": "Messen Sie auch den anderen Pedikel, oder geben Sie die Mitte von Hand an.",
+        "de": "Auch den anderen Pedikel messen, oder die Mitte von Hand angeben.",
     },
     {
         "en": "Give the middle in LPS mm and the measured distance of the lines.",
-        "de": "Geben Sie die Mitte in LPS-mm und den gemessenen Abstand der Linien an.",
+        "de": "Die Mitte in LPS-mm und den gemessenen Abstand der Linien angeben.",
     },
     {
         "en": "Set it through a point of this slice, in LPS mm.",
-        "de": "Legen Sie sie durch einen Punkt dieser Schicht, in LPS-mm.",
+        "de": "Die Linie durch einen Punkt dieser Schicht legen, in LPS-mm.",
     },
     {
         "en": "Move the path to the middle of the pedicle, or add a thinner or shorter screw to "
         "the catalogue.",
-        "de": "Verschieben Sie den Pfad in die Mitte des Pedikels, oder nehmen Sie eine dünnere "
-        "oder kürzere Schraube in den Katalog auf.",
+        "de": "Den Pfad in die Mitte des Pedikels verschieben, oder eine dünnere oder kürzere "
+        "Schraube in den Katalog aufnehmen.",
     },
     {
         "en": "Give diameter and length of the screw in mm.",
-        "de": "Geben Sie Durchmesser und Länge der Schraube in mm an.",
+        "de": "Durchmesser und Länge der Schraube in mm angeben.",
     },
     {
         "en": "Set window and level again, or choose one by name.",
-        "de": "Stellen Sie Fenster und Lage neu ein, oder wählen Sie ein Fenster nach Namen.",
+        "de": "Fensterbreite und Fenstermitte neu einstellen, oder ein Fenster nach Namen wählen.",
     },
     {
         "en": "Choose larger pixels, or a smaller field.",
-        "de": "Wählen Sie größere Pixel oder ein kleineres Feld.",
+        "de": "Größere Pixel oder ein kleineres Feld wählen.",
     },
-    {"en": "Choose a thinner slab.", "de": "Wählen Sie eine geringere Schichtdicke."},
-    {"en": "Give two different directions.", "de": "Geben Sie zwei verschiedene Richtungen an."},
+    {"en": "Choose a thinner slab.", "de": "Eine geringere Schichtdicke wählen."},
+    {"en": "Give two different directions.", "de": "Zwei verschiedene Richtungen angeben."},
     {
         "en": "Give a threshold between them, or a region in which there is bone.",
-        "de": "Geben Sie einen Schwellwert dazwischen an, oder einen Bereich mit Knochen.",
+        "de": "Einen Schwellwert dazwischen angeben, oder einen Bereich mit Knochen.",
     },
     {
         "en": "Give a region around one vertebra, or a higher threshold above the noise.",
-        "de": "Geben Sie einen Bereich um einen Wirbel an, oder einen höheren Schwellwert über dem Rauschen.",
+        "de": "Einen Bereich um einen Wirbel angeben, oder einen höheren Schwellwert über dem Rauschen.",
     },
     {
         "en": "Import the surface again: its triangles must be counter-clockwise seen from outside.",
-        "de": "Importieren Sie die Oberfläche neu: ihre Dreiecke müssen von außen gesehen gegen "
-        "den Uhrzeigersinn laufen.",
+        "de": "Die Oberfläche neu importieren: ihre Dreiecke müssen von außen gesehen gegen den "
+        "Uhrzeigersinn laufen.",
     },
     {
         "en": "Check the unit and the coordinates of the surface (mm, LPS, of the channel's own "
         "CT); where its cortex has holes, create it again with a lower threshold.",
-        "de": "Prüfen Sie Einheit und Koordinaten der Oberfläche (mm, LPS, des CT des Kanals); wo "
-        "ihre Kortikalis Löcher hat, erzeugen Sie sie mit niedrigerem Schwellwert neu.",
+        "de": "Einheit und Koordinaten der Oberfläche prüfen (mm, LPS, des CT des Kanals); wo ihre "
+        "Kortikalis Löcher hat, die Oberfläche mit niedrigerem Schwellwert neu erzeugen.",
     },
     {
         "en": "Check entry and target of the channel: a channel through a pedicle is 25 to 75 mm long.",
-        "de": "Prüfen Sie Eintritts- und Zielpunkt des Kanals: ein Kanal durch einen Pedikel ist "
-        "25 bis 75 mm lang.",
+        "de": "Eintritts- und Zielpunkt des Kanals prüfen: ein Kanal durch einen Pedikel ist 25 bis 75 mm "
+        "lang.",
     },
     {
         "en": "Choose a diameter of {diameters} and a length of {lengths} mm, or add this size "
         "under plan in the settings.",
-        "de": "Wählen Sie einen Durchmesser von {diameters} und eine Länge von {lengths} mm, oder "
-        "nehmen Sie diese Größe in den Einstellungen unter plan auf.",
+        "de": "Einen Durchmesser von {diameters} und eine Länge von {lengths} mm wählen, oder diese "
+        "Größe in den Einstellungen unter plan aufnehmen.",
     },
     {
         "en": "Export the bone surface again as triangles, or state the format.",
-        "de": "Exportieren Sie die Knochenoberfläche neu als Dreiecke, oder geben Sie das Format an.",
+        "de": "Die Knochenoberfläche neu als Dreiecke exportieren, oder das Format angeben.",
     },
     {
         "en": "The action took effect and writing is retried; check the disk.",
-        "de": "Die Aktion ist wirksam, und das Schreiben wird wiederholt; prüfen Sie die Platte.",
+        "de": "Die Aktion ist wirksam, und das Schreiben wird wiederholt; die Platte prüfen.",
     },
     {
         "en": "Give each control point the name of its landmark in 3D Slicer.",
-        "de": "Geben Sie jedem Kontrollpunkt in 3D Slicer den Namen seiner Landmarke.",
+        "de": "Jedem Kontrollpunkt in 3D Slicer den Namen seiner Landmarke geben.",
     },
     {
         "en": "Label the two control points '{entry_label}' and '{target_label}' in 3D Slicer, or "
         "place the entry first.",
-        "de": "Bezeichnen Sie die beiden Kontrollpunkte in 3D Slicer mit „{entry_label}“ und "
-        "„{target_label}“, oder setzen Sie den Eintritt zuerst.",
+        "de": "Die beiden Kontrollpunkte in 3D Slicer mit „{entry_label}“ und „{target_label}“ "
+        "bezeichnen, oder den Eintrittspunkt zuerst setzen.",
     },
     {
         "en": "Give the corner with the smallest left, posterior and superior coordinates first.",
-        "de": "Geben Sie zuerst die Ecke mit den kleinsten Koordinaten nach links, hinten und oben an.",
+        "de": "Zuerst die Ecke mit den kleinsten Koordinaten nach links, hinten und kranial angeben.",
     },
     {
         "en": "Give a region inside of the CT, in its own coordinates (LPS).",
-        "de": "Geben Sie einen Bereich im CT an, in dessen Koordinaten (LPS).",
+        "de": "Einen Bereich im CT angeben, in dessen Koordinaten (LPS).",
     },
 )

@@ -5,7 +5,7 @@ from server.texts.language import Text
 RECORDINGS: tuple[Text, ...] = (
     {
         "en": "Load its timeline, and wait until it is ready.",
-        "de": "Ihre Zeitachse laden und warten, bis sie bereit ist.",
+        "de": "Die Zeitachse der Aufnahme laden und warten, bis sie bereit ist.",
     },
     {
         "en": "Give a number from 0 to the number of images minus 1.",
@@ -50,10 +50,10 @@ RECORDINGS: tuple[Text, ...] = (
     {"en": "Choose a recording with images.", "de": "Eine Aufnahme mit Bildern wählen."},
     {
         "en": "Replay it with the version of Coaxial that recorded it.",
-        "de": "Spielen Sie sie mit der Version von Coaxial ab, die sie aufnahm.",
+        "de": "Die Aufnahme mit der Version von Coaxial abspielen, mit der sie entstand.",
     },
     {
         "en": "Review the recording with the version of Coaxial that recorded it.",
-        "de": "Sehen Sie die Aufnahme mit der Version von Coaxial durch, die sie aufnahm.",
+        "de": "Die Aufnahme mit der Version von Coaxial durchsehen, mit der sie entstand.",
     },
 )

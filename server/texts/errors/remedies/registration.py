@@ -35,7 +35,7 @@ REGISTRATION: tuple[Text, ...] = (
         "en": "Register by these points only, or by the needles only.",
         "de": "Nur mit diesen Punkten registrieren, oder nur mit den Nadeln.",
     },
-    {"en": "Capture it first.", "de": "Sie zuerst antasten."},
+    {"en": "Capture it first.", "de": "Diese Landmarke zuerst antasten."},
     {
         "en": "Hold the marker nearer to the camera and in better light, and touch the landmark again.",
         "de": "Den Marker näher an die Kamera und in besseres Licht halten und die Landmarke neu antasten.",
@@ -88,13 +88,13 @@ REGISTRATION: tuple[Text, ...] = (
     {"en": "The registration is unchanged.", "de": "Die Registrierung ist unverändert."},
     {
         "en": "Sweep the tip slowly over both laminae, the base of the spinous process and both facets.",
-        "de": "Mit der Spitze langsam beide Laminae, die Basis des Dornfortsatzes und beide Facetten "
-        "abfahren.",
+        "de": "Mit der Spitze langsam beide Laminae, die Basis des Dornfortsatzes und beide "
+        "Gelenkfortsätze abfahren.",
     },
     {
         "en": "Register by landmarks first, and check that mesh and sweep are both in mm and of this "
         "vertebra.",
-        "de": "Zuerst mit Landmarken registrieren, und prüfen, dass Netz und Abfahrt in mm sind und zu "
+        "de": "Zuerst mit Landmarken registrieren, und prüfen, dass Netz und Messpunkte in mm sind und zu "
         "diesem Wirbel gehören.",
     },
     {
@@ -147,125 +147,121 @@ REGISTRATION: tuple[Text, ...] = (
     },
     {
         "en": "Touch these landmarks again, each when its name is shown, or put the rows in order.",
-        "de": "Tasten Sie diese Landmarken neu an, jede, wenn ihr Name angezeigt wird, oder ordnen "
-        "Sie die Zeilen.",
+        "de": "Diese Landmarken neu antasten, jede, wenn ihr Name angezeigt wird, oder die Zeilen "
+        "richtig ordnen.",
     },
     {
         "en": "Check that left and right landmarks are not exchanged, and that no axis has the "
         "wrong sign (LPS and RAS differ in two signs, not in one).",
-        "de": "Prüfen Sie, dass linke und rechte Landmarken nicht vertauscht sind und keine Achse "
-        "das falsche Vorzeichen hat (LPS und RAS unterscheiden sich in zwei Vorzeichen, "
-        "nicht in einem).",
+        "de": "Prüfen, dass linke und rechte Landmarken nicht vertauscht sind und keine Achse das "
+        "falsche Vorzeichen hat (LPS und RAS unterscheiden sich in zwei Vorzeichen, nicht in einem).",
     },
     {
         "en": "Touch the landmarks again, and choose ones whose distances from each other differ.",
-        "de": "Tasten Sie die Landmarken neu an, und wählen Sie solche mit verschiedenen Abständen "
-        "voneinander.",
+        "de": "Die Landmarken neu antasten und solche mit verschiedenen Abständen voneinander wählen.",
     },
-    {"en": "Give each landmark a unique name.", "de": "Geben Sie jeder Landmarke einen eigenen Namen."},
+    {"en": "Give each landmark a unique name.", "de": "Jeder Landmarke einen eigenen Namen geben."},
     {
         "en": "Give a symmetric positive 3x3 matrix in mm^2 for each tip, or none at all.",
-        "de": "Geben Sie zu jeder Spitze eine symmetrische, positive 3x3-Matrix in mm^2 an, oder zu keiner.",
+        "de": "Zu jeder Spitze eine symmetrische, positive 3x3-Matrix in mm^2 angeben, oder zu keiner.",
     },
     {
         "en": "Add landmarks, farther apart and around the target, then register again.",
-        "de": "Nehmen Sie weitere Landmarken hinzu, weiter auseinander und um den Zielpunkt herum, "
-        "und registrieren Sie neu.",
+        "de": "Weitere Landmarken hinzunehmen, weiter auseinander und um den Zielpunkt herum, und neu "
+        "registrieren.",
     },
     {
         "en": "Give both in millimetres, and check that both files are of the same landmarks.",
-        "de": "Geben Sie beide in Millimetern an, und prüfen Sie, dass beide Dateien dieselben "
-        "Landmarken enthalten.",
+        "de": "Beide in Millimetern angeben und prüfen, dass beide Dateien dieselben Landmarken enthalten.",
     },
     {
         "en": "Exclude one of them, or touch it again.",
-        "de": "Schließen Sie einen davon aus, oder tasten Sie ihn neu an.",
+        "de": "Einen davon ausschließen, oder ihn neu antasten.",
     },
     {
         "en": "Sweep surfaces with other normals too: the flanks of the spinous process, the rims "
         "of the facets, the transverse processes.",
-        "de": "Fahren Sie auch Flächen anderer Richtung ab: die Seiten des Dornfortsatzes, die "
-        "Ränder der Gelenkfortsätze, die Querfortsätze.",
+        "de": "Auch Flächen anderer Richtung abfahren: die Seiten des Dornfortsatzes, die Ränder der "
+        "Gelenkfortsätze, die Querfortsätze.",
     },
     {
         "en": "Sweep more of the bone: the base of the spinous process, and both facets.",
-        "de": "Fahren Sie mehr vom Knochen ab: die Basis des Dornfortsatzes und beide Gelenkfortsätze.",
+        "de": "Mehr vom Knochen abfahren: die Basis des Dornfortsatzes und beide Gelenkfortsätze.",
     },
-    {"en": "Register again.", "de": "Registrieren Sie neu."},
+    {"en": "Register again.", "de": "Neu registrieren."},
     {
         "en": "Give both in mm: the landmark on the CT, the tip in the anchor's frame.",
-        "de": "Geben Sie beide in mm an: die Landmarke auf dem CT, die Spitze im Koordinatensystem "
-        "des Ankers.",
+        "de": "Beide in mm angeben: die Landmarke auf dem CT, die Spitze im Koordinatensystem der "
+        "Kamera oder des Patientenmarkers.",
     },
-    {"en": "Align the slice with the needles again.", "de": "Richten Sie die Schicht neu an den Nadeln aus."},
+    {"en": "Align the slice with the needles again.", "de": "Die Schicht neu an den Nadeln ausrichten."},
     {
         "en": "Give a point and a direction in LPS, and spreads above 0.",
-        "de": "Geben Sie einen Punkt und eine Richtung in LPS an, und Streuungen über 0.",
+        "de": "Einen Punkt und eine Richtung in LPS angeben, und Streuungen über 0.",
     },
-    {"en": "Name each once.", "de": "Benennen Sie jede einmal."},
+    {"en": "Name each once.", "de": "Jede Nadel nur einmal nennen."},
     {
         "en": "Measure V and H from the camera to the patient, and give their accuracy.",
-        "de": "Messen Sie V und H von der Kamera zum Patienten, und geben Sie ihre Genauigkeit an.",
+        "de": "V und H von der Kamera zum Patienten messen und ihre Genauigkeit angeben.",
     },
     {
         "en": "Measure H to the vertebra again, or tilt the camera.",
-        "de": "Messen Sie H bis zum Wirbel neu, oder neigen Sie die Kamera.",
+        "de": "H bis zum Wirbel neu messen, oder die Kamera neigen.",
     },
     {
         "en": "Mark the needle's exit from the bone, and its head.",
-        "de": "Markieren Sie den Austritt der Nadel aus dem Knochen und ihren Kopf.",
+        "de": "Den Austritt der Nadel aus dem Knochen und ihren Kopf markieren.",
     },
     {
         "en": "Give a point of the plan in mm, such as the entry point.",
-        "de": "Geben Sie einen Punkt der Planung in mm an, etwa den Eintrittspunkt.",
+        "de": "Einen Punkt der Planung in mm angeben, etwa den Eintrittspunkt.",
     },
     {
         "en": "Register by points again, then sweep.",
-        "de": "Registrieren Sie zuerst neu mit Landmarken, und fahren Sie dann ab.",
+        "de": "Zuerst neu mit Landmarken registrieren, dann abfahren.",
     },
     {
         "en": "Set reference.marker to the marker on the patient, or register again.",
-        "de": "Setzen Sie reference.marker auf den Patientenmarker, oder registrieren Sie neu.",
+        "de": "reference.marker auf den Patientenmarker setzen, oder neu registrieren.",
     },
     {
         "en": "Touch that landmark again, or leave it out, then register again.",
-        "de": "Tasten Sie diese Landmarke neu an, oder lassen Sie sie weg, und registrieren Sie neu.",
+        "de": "Diese Landmarke neu antasten, oder sie weglassen, und neu registrieren.",
     },
     {
         "en": "Touch {possible_outliers[0]} again, which is the likeliest; {possible_outliers[1]} may "
         "be mistaken instead, which another landmark would show.",
-        "de": "Tasten Sie {possible_outliers[0]} neu an, die wahrscheinlichste; auch "
-        "{possible_outliers[1]} kann falsch sein, was eine weitere Landmarke zeigen würde.",
+        "de": "Die wahrscheinlichste, {possible_outliers[0]}, neu antasten; auch {possible_outliers[1]} "
+        "kann falsch sein, was eine weitere Landmarke zeigen würde.",
     },
     {
         "en": "Touch {possible_outliers[0]} again, which is the likeliest; {possible_outliers[1]} or "
         "{possible_outliers[2]} may be mistaken instead, which another landmark would show.",
-        "de": "Tasten Sie {possible_outliers[0]} neu an, die wahrscheinlichste; auch "
-        "{possible_outliers[1]} oder {possible_outliers[2]} kann falsch sein, was eine weitere "
-        "Landmarke zeigen würde.",
+        "de": "Die wahrscheinlichste, {possible_outliers[0]}, neu antasten; auch {possible_outliers[1]} "
+        "oder {possible_outliers[2]} kann falsch sein, was eine weitere Landmarke zeigen würde.",
     },
     {
         "en": "Start a registration by landmarks with a tool.",
-        "de": "Beginnen Sie eine Registrierung mit Landmarken mit einem Instrument.",
+        "de": "Eine Registrierung mit Landmarken beginnen und dazu ein Instrument wählen.",
     },
-    {"en": "Start a sweep with a tool.", "de": "Beginnen Sie eine Abfahrt mit einem Instrument."},
-    {"en": "Start a check on a landmark.", "de": "Beginnen Sie eine Prüfung an einer Landmarke."},
+    {"en": "Start a sweep with a tool.", "de": "Das Abfahren mit einem Instrument beginnen."},
+    {"en": "Start a check on a landmark.", "de": "Eine Prüfung an einer Landmarke beginnen."},
     {
         "en": "Start a collection for a calibration board.",
-        "de": "Beginnen Sie eine Aufnahme für eine Kalibriertafel.",
+        "de": "Eine Aufnahme von Ansichten einer Tafel beginnen.",
     },
     {
         "en": "Start a measurement on the camera's page.",
-        "de": "Beginnen Sie eine Messung auf der Seite der Kamera.",
+        "de": "Eine Messung auf der Seite der Kamera beginnen.",
     },
-    {"en": "Start a measurement of the readout time.", "de": "Beginnen Sie eine Messung der Auslesezeit."},
+    {"en": "Start a measurement of the readout time.", "de": "Eine Messung der Auslesezeit beginnen."},
     {
         "en": "Start a collection for a tool and a purpose.",
-        "de": "Beginnen Sie eine Aufnahme für ein Instrument und einen Zweck.",
+        "de": "Eine Aufnahme für ein Instrument und einen Zweck beginnen.",
     },
     {
         "en": "Add a landmark that lies well beside that line, such as a transverse process, and fit again.",
-        "de": "Nehmen Sie eine Landmarke deutlich neben dieser Geraden hinzu, etwa einen Querfortsatz, und "
-        "passen Sie neu an.",
+        "de": "Eine Landmarke deutlich neben dieser Geraden hinzunehmen, etwa einen Querfortsatz, und neu "
+        "registrieren.",
     },
 )

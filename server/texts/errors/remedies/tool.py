@@ -52,68 +52,68 @@ TOOL: tuple[Text, ...] = (
     },
     {
         "en": "Calibrate the tool with its present marker; a tip is never scaled.",
-        "de": "Kalibrieren Sie das Instrument mit seinem jetzigen Marker; eine Spitze wird nie skaliert.",
+        "de": "Das Instrument mit seinem jetzigen Marker kalibrieren; eine Spitze wird nie skaliert.",
     },
     {
         "en": "Give tools.{tool}.calibration, or tip_in_marker_mm and axis_in_marker.",
-        "de": "Geben Sie tools.{tool}.calibration an, oder tip_in_marker_mm und axis_in_marker.",
+        "de": "tools.{tool}.calibration angeben, oder tip_in_marker_mm und axis_in_marker.",
     },
     {
         "en": "Give the tip in the marker's frame, as pivot calibration returns it.",
-        "de": "Geben Sie die Spitze im Koordinatensystem des Markers an, wie die "
-        "Pivot-Kalibrierung sie liefert.",
+        "de": "Die Spitze im Koordinatensystem des Markers angeben, wie die Kalibrierung durch Schwenken "
+        "sie liefert.",
     },
     {
         "en": "Give the tip as three numbers in mm in the marker's frame, as pivot calibration returns it.",
-        "de": "Geben Sie die Spitze als drei Zahlen in mm im Koordinatensystem des Markers an, wie "
-        "die Pivot-Kalibrierung sie liefert.",
+        "de": "Die Spitze als drei Zahlen in mm im Koordinatensystem des Markers angeben, wie die "
+        "Kalibrierung durch Schwenken sie liefert.",
     },
     {
         "en": "Give the direction from the marker towards the tip, as three numbers.",
-        "de": "Geben Sie die Richtung vom Marker zur Spitze als drei Zahlen an.",
+        "de": "Die Richtung vom Marker zur Spitze als drei Zahlen angeben.",
     },
     {
         "en": "Give each pose its covariance (6, 6) in mm and radians, translation first, or give none.",
-        "de": "Geben Sie zu jeder Lage ihre Kovarianz (6, 6) in mm und Radiant an, Translation "
-        "zuerst, oder zu keiner.",
+        "de": "Zu jeder Lage ihre Kovarianz (6, 6) in mm und Radiant angeben, Translation zuerst, oder zu "
+        "keiner.",
     },
     {
         "en": "Measure the outer side of the printed black square in mm.",
-        "de": "Messen Sie die äußere Seite des gedruckten schwarzen Quadrats in mm.",
+        "de": "Die äußere Seite des gedruckten schwarzen Quadrats in mm messen.",
     },
     {
         "en": "Use shapes that differ; 'coaxial marker design' with another seed makes another.",
-        "de": "Verwenden Sie verschiedene Formen; „coaxial marker design“ mit einem anderen "
-        "Startwert erzeugt eine andere.",
+        "de": "Verschiedene Formen verwenden; „coaxial marker design“ mit einem anderen Startwert "
+        "erzeugt eine andere.",
     },
     {
         "en": "Use a shape that differs from its mirror image; 'coaxial marker design' makes one.",
-        "de": "Verwenden Sie eine Form, die sich von ihrem Spiegelbild unterscheidet; „coaxial "
-        "marker design“ erzeugt eine.",
+        "de": "Eine Form verwenden, die sich von ihrem Spiegelbild unterscheidet; „coaxial marker "
+        "design“ erzeugt eine.",
     },
-    {"en": "Use a shape without rotational symmetry.", "de": "Verwenden Sie eine Form ohne Drehsymmetrie."},
-    {"en": "Give each marker a unique name.", "de": "Geben Sie jedem Marker einen eigenen Namen."},
+    {"en": "Use a shape without rotational symmetry.", "de": "Eine Form ohne Drehsymmetrie verwenden."},
+    {"en": "Give each marker a unique name.", "de": "Jedem Marker einen eigenen Namen geben."},
     {
         "en": "Record longer, and keep the tool in view.",
-        "de": "Nehmen Sie länger auf, und halten Sie das Instrument im Bild.",
+        "de": "Länger aufnehmen und das Instrument im Bild halten.",
     },
     {
         "en": "Record at a higher rate, so that the motion of a hand is resolved.",
-        "de": "Nehmen Sie mit höherer Rate auf, damit die Bewegung einer Hand aufgelöst wird.",
+        "de": "Mit höherer Rate aufnehmen, damit die Bewegung einer Hand aufgelöst wird.",
     },
     {
         "en": "Check that both sources track one rigid tool (the same point where translations are "
         "compared), and that the offset lies within the search range.",
-        "de": "Prüfen Sie, dass beide Quellen ein starres Instrument verfolgen (denselben Punkt, "
-        "wo Translationen verglichen werden), und dass der Zeitversatz im Suchbereich liegt.",
+        "de": "Prüfen, dass beide Quellen ein starres Instrument verfolgen (denselben Punkt, wo "
+        "Translationen verglichen werden) und dass der Zeitversatz im Suchbereich liegt.",
     },
     {
         "en": "Increase the search range, or start both clocks closer together.",
-        "de": "Vergrößern Sie den Suchbereich, oder starten Sie beide Uhren näher beieinander.",
+        "de": "Den Suchbereich vergrößern, oder beide Uhren näher beieinander starten.",
     },
     {
         "en": "Check that both clocks count real time: no images timed by a nominal rate, and none lost.",
-        "de": "Prüfen Sie, dass beide Uhren echte Zeit zählen: keine Bilder mit nomineller Rate, "
-        "keine verlorenen.",
+        "de": "Prüfen, dass beide Uhren echte Zeit zählen: keine Bilder mit nomineller Rate, keine "
+        "verlorenen.",
     },
 )
