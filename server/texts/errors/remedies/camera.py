@@ -16,23 +16,23 @@ CAMERA: tuple[Text, ...] = (
         "en": "Uncover the lens. If that does not help, restart the camera and any device between it and "
         "this machine, and check its cable. It is reopened automatically.",
         "de": "Das Objektiv freimachen. Hilft das nicht, die Kamera und jedes Gerät zwischen ihr und diesem "
-        "Rechner neu starten und das Kabel prüfen. Sie wird selbsttätig neu geöffnet.",
+        "Rechner neu starten und das Kabel prüfen. Sie wird automatisch neu geöffnet.",
     },
     {
         "en": "Run 'coaxial cameras'; check its cable and power, and that no other program uses it. It is "
         "retried automatically.",
         "de": "„coaxial cameras“ aufrufen; Kabel und Strom prüfen, und dass kein anderes Programm sie "
-        "verwendet. Es wird selbsttätig neu versucht.",
+        "verwendet. Es wird automatisch neu versucht.",
     },
     {
         "en": "Check its cable, that no other program uses it, and the read permission (group 'video'); it "
         "is retried automatically.",
         "de": "Das Kabel prüfen, dass kein anderes Programm sie verwendet, und das Leserecht (Gruppe "
-        "„video“); es wird selbsttätig neu versucht.",
+        "„video“); es wird automatisch neu versucht.",
     },
     {
         "en": "Check its cable and power; it is retried automatically.",
-        "de": "Kabel und Strom prüfen; es wird selbsttätig neu versucht.",
+        "de": "Kabel und Strom prüfen; es wird automatisch neu versucht.",
     },
     {
         "en": "Use a separate USB 3 port or network card (jumbo frames) for it, or a lower camera.rate_hz.",
@@ -71,22 +71,22 @@ CAMERA: tuple[Text, ...] = (
     },
     {
         "en": "Check path, user and password of the stream; it is retried automatically.",
-        "de": "Pfad, Benutzer und Passwort des Videostroms prüfen; es wird selbsttätig neu versucht.",
+        "de": "Pfad, Benutzer und Passwort des Videostroms prüfen; es wird automatisch neu versucht.",
     },
     {
         "en": "Set the camera to low latency, connect it by cable, and check that this machine is not "
         "overloaded. It is reopened automatically.",
         "de": "Die Kamera auf geringe Latenz stellen, per Kabel anschließen, und prüfen, dass dieser "
-        "Rechner nicht überlastet ist. Sie wird selbsttätig neu geöffnet.",
+        "Rechner nicht überlastet ist. Sie wird automatisch neu geöffnet.",
     },
     {
         "en": "Restart the camera, or the device between it and this machine; it is reopened automatically.",
-        "de": "Die Kamera neu starten, oder das Gerät zwischen ihr und diesem Rechner; sie wird selbsttätig "
+        "de": "Die Kamera neu starten, oder das Gerät zwischen ihr und diesem Rechner; sie wird automatisch "
         "neu geöffnet.",
     },
     {
         "en": "Check the camera, its power and the network; it is retried automatically.",
-        "de": "Kamera, Strom und Netz prüfen; es wird selbsttätig neu versucht.",
+        "de": "Kamera, Strom und Netz prüfen; es wird automatisch neu versucht.",
     },
     {
         "en": "Copy or export the file again; the existing images are played.",

@@ -69,7 +69,7 @@ export const phoneDe: PhoneTexts = {
   limitList: {
     focus:
       "Der Fokus lässt sich nicht auf jedem Gerät sperren, auf iPhones und iPads nie. Ändert sich der Fokus, ist die Kalibrierung ungültig.",
-    lens: "Telefone mit mehreren Objektiven können im Nahbereich oder bei wenig Licht selbsttätig wechseln. Wählen Sie einen Abstand, bei dem das nicht geschieht.",
+    lens: "Telefone mit mehreren Objektiven können im Nahbereich oder bei wenig Licht automatisch wechseln. Wählen Sie einen Abstand, bei dem das nicht geschieht.",
     shutter:
       "Die meisten Telefone lesen den Sensor zeilenweise aus und geben die Auslesezeit nicht an: Bewegte Objekte werden falsch gemessen.",
     steady: "Ein Bildstabilisator verschiebt das Bild. Schalten Sie ihn aus, wo das Gerät es erlaubt.",
