@@ -12,6 +12,7 @@ from tracker.plan.screw import ScrewPlan
 
 # Version 2 added landmarks; version 1 is read without any.
 FORMAT_VERSION, READABLE_VERSIONS = 2, (1, 2)
+MAX_LISTED_LENGTH = 400
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,14 +94,15 @@ class PlanDocument:
     def __post_init__(self) -> None:
         names = [vertebra.name for vertebra in self.vertebrae]
         if len(set(names)) < len(names):
+            # Every name of a usual plan, and a bound for a malicious one.
+            listed = ", ".join(name[:40] for name in names[:30])[:MAX_LISTED_LENGTH]
             raise PlanError(
                 "PLAN_INVALID",
-                f"the plan names {len(names)} vertebrae, but only {len(set(names))} different ones: "
-                f"{', '.join(name[:40] for name in names[:30])}",
+                f"the plan names {len(names)} vertebrae, but only {len(set(names))} different ones: {listed}",
                 "Give each vertebra its own name.",
                 {
                     "vertebrae": len(names),
                     "different": len(set(names)),
-                    "names": ", ".join(name[:40] for name in names[:30]),
+                    "names": listed,
                 },
             )
