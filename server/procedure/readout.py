@@ -156,14 +156,7 @@ def _reject_other_size(size_wh_px: tuple[int, int], camera: CameraModel) -> None
         f"{width_before}x{height_before} px, and the readout time is stored for that size",
         f"Set the camera to {width_before}x{height_before} px and measure again, or calibrate it at "
         f"{width}x{height} px.",
-        {
-            "image_size_wh_px": [width, height],
-            "calibrated_size_wh_px": [width_before, height_before],
-            "width": width,
-            "height": height,
-            "width_before": width_before,
-            "height_before": height_before,
-        },
+        {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_before, height_before]},
     )
 
 

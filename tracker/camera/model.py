@@ -125,14 +125,7 @@ class CameraModel:
                 f"a camera of {width_before}x{height_before} px cannot be scaled to {width}x{height} px, "
                 "which has another ratio of width to height",
                 "Calibrate the camera at that size.",
-                {
-                    "size_wh_px": [width, height],
-                    "calibrated_size_wh_px": [width_before, height_before],
-                    "width_before": width_before,
-                    "height_before": height_before,
-                    "width": width,
-                    "height": height,
-                },
+                {"size_wh_px": [width, height], "calibrated_size_wh_px": [width_before, height_before]},
             )
         scale = width / width_before
         matrix = self.matrix.copy()

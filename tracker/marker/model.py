@@ -68,7 +68,7 @@ class MarkerModel:
                 "MARKER_SIDE_INVALID",
                 f"the side of marker '{name}' is {side_mm} mm, needed above 0 mm",
                 "Measure the outer side of the printed black square in mm.",
-                {"name": name, "side_mm": float(side_mm), "marker": name},
+                {"name": name, "side_mm": float(side_mm)},
             )
         square = _working_image(grey.astype(np.uint8))
         _reject_symmetry(square, name)
@@ -189,7 +189,6 @@ def reject_mirror_symmetric(models: Iterable[MarkerModel]) -> None:
                 {
                     "name": model.name,
                     "correlation": correlation,
-                    "marker": model.name,
                     "max_correlation": MAX_SYMMETRY,
                 },
             )
@@ -220,7 +219,6 @@ def _reject_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
                     "name": name,
                     "turned_deg": 90 * turns,
                     "correlation": correlation,
-                    "marker": name,
                     "max_correlation": MAX_SYMMETRY,
                 },
             )

@@ -113,20 +113,21 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
     ),
     "CAMERA_ASPECT_DIFFERS": (
         {
-            "en": "a camera of {width_before}x{height_before} px cannot be scaled to {width}x{height} "
-            "px, which has another ratio of width to height",
-            "de": "eine Kamera mit {width_before}x{height_before} px kann nicht auf {width}x{height} "
-            "px skaliert werden, das Seitenverhältnis ist ein anderes",
+            "en": "a camera of {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px cannot be scaled "
+            "to {size_wh_px[0]}x{size_wh_px[1]} px, which has another ratio of width to height",
+            "de": "eine Kamera mit {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px kann nicht auf "
+            "{size_wh_px[0]}x{size_wh_px[1]} px skaliert werden, das Seitenverhältnis ist ein anderes",
         },
     ),
     "CAMERA_FILE_INCOMPLETE": ({"en": "the camera file lacks {keys}", "de": "der Kameradatei fehlt {keys}"},),
     "CAMERA_SIZE_MISMATCH": (
         {
-            "en": "images of the board are {width}x{height} px, but the camera was calibrated at "
-            "{width_before}x{height_before} px, and the readout time is stored for that size",
-            "de": "die Bilder der Tafel haben {width}x{height} px, die Kamera wurde aber mit "
-            "{width_before}x{height_before} px kalibriert, und die Auslesezeit wird für diese "
-            "Größe gespeichert",
+            "en": "images of the board are {image_size_wh_px[0]}x{image_size_wh_px[1]} px, but the camera "
+            "was calibrated at {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px, and the readout "
+            "time is stored for that size",
+            "de": "die Bilder der Tafel haben {image_size_wh_px[0]}x{image_size_wh_px[1]} px, die Kamera "
+            "wurde aber mit {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px kalibriert, und die "
+            "Auslesezeit wird für diese Größe gespeichert",
         },
     ),
     "COEFFICIENTS_INVALID": (
@@ -183,10 +184,10 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "de": "{disagree} von {views} Zeitpunkten passen nicht zu einem Verbund, erlaubt ist ein Drittel",
         },
         {
-            "en": "{disagree} of {views} views place {far} elsewhere to {near} than the rest, allowed "
-            "is a third of them",
-            "de": "{disagree} von {views} Ansichten ordnen {far} zu {near} anders an als die übrigen, "
-            "erlaubt ist ein Drittel",
+            "en": "{disagree} of {views} views place {cameras[1]} elsewhere to {cameras[0]} than the rest, "
+            "allowed is a third of them",
+            "de": "{disagree} von {views} Ansichten ordnen {cameras[1]} zu {cameras[0]} anders an als die "
+            "übrigen, erlaubt ist ein Drittel",
         },
     ),
     "VIEWS_ALL_PARALLEL": (

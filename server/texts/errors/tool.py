@@ -94,16 +94,16 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
     ),
     "SPIN_TOO_SMALL": (
         {
-            "en": "the tool was spun by {spin_deg:.0f} degrees, needed {min_spin_deg:g}",
-            "de": "das Instrument wurde um {spin_deg:.0f}° gedreht, nötig {min_spin_deg:g}°",
+            "en": "the tool was spun by {spin_range_deg:.0f} degrees, needed {min_spin_deg:g}",
+            "de": "das Instrument wurde um {spin_range_deg:.0f}° gedreht, nötig {min_spin_deg:g}°",
         },
     ),
     "SPIN_WOBBLES": (
         {
             "en": "the axis moved by {wobble_deg:.1f} degrees (RMS) while the tool was spun by "
-            "{spin_deg:.0f}, allowed {max_wobble_deg:g}",
+            "{spin_range_deg:.0f}, allowed {max_wobble_deg:g}",
             "de": "die Achse bewegte sich um {wobble_deg:.1f}° (RMS), während das Instrument um "
-            "{spin_deg:.0f}° gedreht wurde, erlaubt {max_wobble_deg:g}",
+            "{spin_range_deg:.0f}° gedreht wurde, erlaubt {max_wobble_deg:g}",
         },
     ),
     "MARKERS_TOO_SIMILAR": (
@@ -116,10 +116,10 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
     ),
     "MARKER_MIRROR_SYMMETRIC": (
         {
-            "en": "marker '{marker}' is its own mirror image: correlation {correlation:.3f}, allowed "
+            "en": "marker '{name}' is its own mirror image: correlation {correlation:.3f}, allowed "
             "{max_correlation}; its reflection in steel would be detected as the marker, at a "
             "wrong pose",
-            "de": "der Marker „{marker}“ ist sein eigenes Spiegelbild: Korrelation {correlation:.3f}, "
+            "de": "der Marker „{name}“ ist sein eigenes Spiegelbild: Korrelation {correlation:.3f}, "
             "erlaubt {max_correlation}; seine Spiegelung in Stahl würde als Marker erkannt, in "
             "falscher Lage",
         },
@@ -132,15 +132,15 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
     ),
     "MARKER_SIDE_INVALID": (
         {
-            "en": "the side of marker '{marker}' is {side_mm} mm, needed above 0 mm",
-            "de": "die Seite des Markers „{marker}“ ist {side_mm} mm, nötig über 0 mm",
+            "en": "the side of marker '{name}' is {side_mm} mm, needed above 0 mm",
+            "de": "die Seite des Markers „{name}“ ist {side_mm} mm, nötig über 0 mm",
         },
     ),
     "MARKER_SYMMETRIC": (
         {
-            "en": "marker '{marker}' looks the same when rotated by {turned_deg} degrees: correlation "
+            "en": "marker '{name}' looks the same when rotated by {turned_deg} degrees: correlation "
             "{correlation:.3f}, allowed {max_correlation}",
-            "de": "der Marker „{marker}“ sieht um {turned_deg} Grad gedreht gleich aus: Korrelation "
+            "de": "der Marker „{name}“ sieht um {turned_deg} Grad gedreht gleich aus: Korrelation "
             "{correlation:.3f}, erlaubt {max_correlation}",
         },
     ),

@@ -167,5 +167,5 @@ def _reject_disagreement(near: str, far: str, odd: int, count: int) -> None:
         f"{odd} of {count} views place {far} elsewhere to {near} than the rest, allowed is a third of them",
         "Check that images of both cameras are of the same instant, that no camera was moved, and "
         "that the board has a unique orientation.",
-        {"views": count, "disagree": odd, "cameras": [near, far], "far": far, "near": near},
+        {"views": count, "disagree": odd, "cameras": [near, far]},
     )

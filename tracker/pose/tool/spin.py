@@ -185,7 +185,6 @@ def _towards_tip(axis: Array, tip_in_marker_mm: Array) -> Array:
 def _reject_other_motions(spin_deg: float, wobble_deg: float, gate: ToolGate) -> None:
     context: dict[str, object] = {
         "spin_range_deg": spin_deg,
-        "spin_deg": spin_deg,
         "min_spin_deg": gate.min_spin_deg,
         "wobble_deg": wobble_deg,
         "max_wobble_deg": gate.max_wobble_deg,

@@ -138,10 +138,10 @@ CAMERA: tuple[Text, ...] = (
     },
     {"en": "Calibrate the camera at that size.", "de": "Die Kamera mit dieser Größe kalibrieren."},
     {
-        "en": "Set the camera to {width_before}x{height_before} px and measure again, or calibrate "
-        "it at {width}x{height} px.",
-        "de": "Die Kamera auf {width_before}x{height_before} px stellen und neu messen, oder sie mit "
-        "{width}x{height} px kalibrieren.",
+        "en": "Set the camera to {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px and measure "
+        "again, or calibrate it at {image_size_wh_px[0]}x{image_size_wh_px[1]} px.",
+        "de": "Die Kamera auf {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px stellen und "
+        "neu messen, oder sie mit {image_size_wh_px[0]}x{image_size_wh_px[1]} px kalibrieren.",
     },
     {
         "en": "Wait until the video runs smoothly, and start again.",
