@@ -62,20 +62,21 @@ test: $(STAMPS)/project ## everything: format, lint, types, contracts, Python, w
 	checked=$$?; wait $$warm && exit $$checked
 	@$(MAKE) test-python
 
-# The core, for every commit. Only `make test` runs servers, whole scenes, CTs, calibrations, the browser, the format of the
-# page and eslint, which takes more than a minute, and the slowest files of these folders.
+# The core, for every commit. Only `make test` runs servers, whole scenes, CTs, calibrations, the browser, the format of
+# the page, and the slowest files of these folders.
 FAST_TESTS := $(addprefix tests/tracker/,geometry edges regions quads marker navigation/alarms) \
 	$(addprefix tests/server/,alarms texts)
 FAST_LEAVES_OUT := $(addprefix --ignore-glob=*/,test_candidates.py test_photometric_fit*.py test_stepwise_illumination.py \
 	test_alarm_laws.py test_good_drilling.py test_no_contradiction.py)
 
 .PHONY: test-fast fast-checks fast-tests
-test-fast: $(STAMPS)/warm ## the core, for every commit: unit tests, lint of Python, types, web tests
+test-fast: $(STAMPS)/warm ## the core, for every commit: unit tests, lint, types, web tests
 	@$(MAKE) --jobs=2 $(STAMPS)/dev $(STAMPS)/page-packages
 	@$(MAKE) --jobs=2 fast-tests fast-checks
 fast-checks:
 	@$(MAKE) lint-python
 	@$(MAKE) types-python
+	@$(NPM) run --silent lint
 	@$(MAKE) types-page
 	@$(MAKE) test-web
 fast-tests:

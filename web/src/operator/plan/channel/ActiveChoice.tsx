@@ -19,7 +19,7 @@ export function ActiveChoice({
   const { plan, change, busy, by } = usePlanning();
   const { side } = planned;
   const active = plan?.active_channel ?? null;
-  const isActive = active !== null && active.vertebra === vertebra && active.side === side;
+  const isActive = active?.vertebra === vertebra && active.side === side;
   const draft = draftOf(planned.channel);
   const { transverseDeg, sagittalDeg } = anglesOf(draft, side);
   const { made_by } = by;
