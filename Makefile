@@ -114,7 +114,7 @@ lint-page: $(STAMPS)/page-packages
 
 .PHONY: types-python
 types-python: $(STAMPS)/dev
-	@$(PYTHON_IN_VENV) -m mypy
+	@.venv/bin/pyrefly check
 
 .PHONY: types-page
 types-page: $(STAMPS)/page-packages
@@ -178,7 +178,7 @@ lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade for the newest v
 
 .PHONY: clean
 clean: ## delete all build output, but no case
-	rm -rf .venv dist docs/site docs/.cache web/node_modules web/dist web/src/api web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	rm -rf .venv dist docs/site docs/.cache web/node_modules web/dist web/src/api web/*.tsbuildinfo .pytest_cache .ruff_cache .import_linter_cache .hypothesis
 	find tracker server tests -name __pycache__ -type d -prune -exec rm -rf {} +
 	@if [ -e .coaxial ]; then echo "Kept: .coaxial, the folder with the cases. Remove it by hand to lose them."; fi
 

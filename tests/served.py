@@ -20,7 +20,7 @@ class _Announced(uvicorn.Server):
         super().__init__(config)
         self.listening = threading.Event()
 
-    async def startup(self, sockets: list[object] | None = None) -> None:  # type: ignore[override]  # unused
+    async def startup(self, sockets: list[object] | None = None) -> None:  # pyrefly: ignore[bad-override]  # unused
         await super().startup(None)
         assert sockets is None
         self.listening.set()

@@ -30,8 +30,8 @@ DISPATCHERS: list[Any] = []
 
 def compiled(function: Function) -> Function:
     """Return the function as compiled machine code. `tracker.warm_up` calls each one ahead of use."""
-    # Only Numba's own types leave out the last option. Nothing calls a kernel from C.
-    loop = numba.njit(  # type: ignore[call-overload]
+    # Nothing calls a kernel from C.
+    loop = numba.njit(
         cache=True,
         nogil=True,
         error_model="numpy",

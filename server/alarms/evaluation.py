@@ -124,7 +124,7 @@ class AlarmEvaluation:
     def state(self) -> AlarmState:
         """A copy of the present state."""
         engine = {
-            name: value.copy() if isinstance(value, dict | list) else value
+            name: value.copy() if isinstance(value, (dict, list)) else value
             for name, value in vars(self._engine).items()
         }
         return AlarmState(

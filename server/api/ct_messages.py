@@ -157,4 +157,4 @@ def mapping_of(value: object) -> dict[str, object]:
 
 def list_of(value: object) -> list[object]:
     """Return the value as a list; empty if it is not one."""
-    return list(value) if isinstance(value, list | tuple) else []
+    return list(value) if isinstance(value, (list, tuple)) else []

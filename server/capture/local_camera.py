@@ -31,9 +31,9 @@ class Video(Protocol):
 
     def isOpened(self) -> bool: ...  # noqa: D102, N802  OpenCV's name
 
-    def set(self, key: int, value: float) -> bool: ...  # noqa: D102
+    def set(self, key: int, value: float, /) -> bool: ...  # noqa: D102
 
-    def get(self, key: int) -> float: ...  # noqa: D102
+    def get(self, key: int, /) -> float: ...  # noqa: D102
 
     def grab(self) -> bool: ...  # noqa: D102
 

@@ -97,10 +97,10 @@ def _folder() -> Path:
 
 def _is_compiled(loop: object) -> bool:
     """Return whether the cache has an index for this function that is as new as its source."""
-    function = loop.py_func  # type: ignore[attr-defined]  # Numba's dispatcher
+    function = loop.py_func  # pyrefly: ignore[missing-attribute]  # Numba's dispatcher
     source = Path(function.__code__.co_filename)
     name = f"{function.__module__.rpartition('.')[2]}.{function.__qualname__}-*.nbi"
-    indexes = Path(loop.stats.cache_path).glob(name)  # type: ignore[attr-defined]
+    indexes = Path(loop.stats.cache_path).glob(name)  # pyrefly: ignore[missing-attribute]
     return any(index.stat().st_mtime >= source.stat().st_mtime for index in indexes)
 
 

@@ -74,7 +74,7 @@ class StillFiles:
             reject_without_space(self._home, MAX_BYTES)
             path.parent.mkdir(mode=0o700, exist_ok=True)
             with part.open("wb") as file:
-                np.savez(file, **arrays)  # type: ignore[arg-type]  # its stub takes the last one for allow_pickle
+                np.savez(file, **arrays)  # pyrefly: ignore[bad-argument-type]  # its stub takes the last one for allow_pickle
             part.replace(path)
             for old in sorted(path.parent.glob("*.npz"), key=_written_at_s)[:-MAX_FILES]:
                 old.unlink(missing_ok=True)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
@@ -188,6 +188,8 @@ class _Pictures:
                         size_wh_px = image.packed.size_wh_px
                     yield self._picture(number, at_s, size_wh_px, image, message)
                     image, before_s, number = None, at_s, number + 1
+                case _:
+                    pass  # no part of a picture
         self.is_whole, self.incomplete_reason = reader.is_whole, reader.incomplete_reason
 
     def _picture(
@@ -293,7 +295,7 @@ def _opened(target: Path, image: Image) -> "tuple[OutputContainer, VideoStream]"
     import av  # noqa: PLC0415  optional
 
     container = av.open(str(target), "w", format="mp4", options={"movflags": "faststart"})
-    stream = cast("VideoStream", container.add_stream(CODEC, rate=30, options=OPTIONS))
+    stream = container.add_stream(CODEC, rate=30, options=OPTIONS)
     height, width = image.shape[:2]
     # Chroma has half the resolution, so that the size must be even.
     stream.width, stream.height = width + width % 2, height + height % 2

@@ -62,7 +62,7 @@ def _encoded_container(value: Value) -> Json:
     kind = type(value)
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return {"named": _name_of(kind), "items": [encoded_value(one) for one in value]}
-    if isinstance(value, dict | MappingProxyType):
+    if isinstance(value, (dict, MappingProxyType)):
         pairs = [[encoded_value(key), encoded_value(one)] for key, one in value.items()]
         return {"mapping" if isinstance(value, MappingProxyType) else "dict": pairs}
     if kind is list:

@@ -39,7 +39,7 @@ class RecordingCopy:
     ) -> None:
         try:
             if kind is None:
-                self._writer.finish()  # type: ignore[no-untyped-call]
+                self._writer.finish()
         finally:
             self._file.close()
 

@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 import viser
 
 from server.scene.nodes import World, add_tool, quaternion, vector
 from server.scene.trace import Trace
-from tracker.geometry import Array, Rigid, Tool, rotation_from_half_axes
+from tracker.geometry import Rigid, Tool, rotation_from_half_axes
 from tracker.navigation.uncertainty import DrillUncertainty
 from tracker.pose import ToolModel
 
@@ -109,7 +110,7 @@ class DrillNodes:
         self._line.visible = len(self._trace.segments_mm) > 0
 
 
-def _cone() -> tuple[Array, Array]:
+def _cone() -> tuple[npt.NDArray[np.float32], npt.NDArray[np.uint32]]:
     """Return an open cone of height and radius 1 with its apex at the origin."""
     turn = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
     ring = np.stack([np.cos(turn), np.sin(turn), np.ones(CORNERS)], axis=1)

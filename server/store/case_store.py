@@ -292,8 +292,8 @@ class CaseStore:
             row = documents.document_row(session, document.case_id, document.id)
             is_news = row.withdrawn_at is None
             if is_news:
-                row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason = self._database.now, by, reason
-                case.changed_at = row.withdrawn_at
+                case.changed_at = row.withdrawn_at = self._database.now
+                row.withdrawn_by, row.withdrawn_reason = by, reason
                 session.flush()
             found = documents.find_document(session, document.case_id, document.id)
         if is_news:

@@ -88,7 +88,7 @@ def content_to_json(content: Mapping[str, object]) -> str:
 
 def _reject_other_than_json(content: object) -> None:
     """Validate every value. Iterative, because hostile content could exceed Python's recursion limit."""
-    if not isinstance(content, dict | Mapping):
+    if not isinstance(content, Mapping):
         raise _not_json("", f"it is a {type(content).__name__}, not a mapping")
     waiting: list[tuple[str, object, int]] = [("", content, 0)]
     while waiting:
@@ -100,7 +100,7 @@ def _reject_other_than_json(content: object) -> None:
                 if type(key) is not str:
                     raise _not_json(where, f"its key {key!r:.40} is a {type(key).__name__}, not a text")
                 waiting.append((f"{where}.{key}", inner, depth + 1))
-        elif isinstance(value, list | tuple):
+        elif isinstance(value, (list, tuple)):
             waiting += [(f"{where}[{n}]", inner, depth + 1) for n, inner in enumerate(value)]
         elif type(value) is float and not math.isfinite(value):
             raise _not_json(where, f"it is {value}, which is no number")

@@ -121,7 +121,7 @@ class ViewerHttpProtocol(H11Protocol):
     request_within_s = 10.0
     _head_due: asyncio.TimerHandle | None = None
 
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # as its base
+    def connection_made(self, transport: asyncio.Transport) -> None:
         """Shorten the buffers, and store the connection."""
         super().connection_made(transport)
         self._connection = Connection(transport)

@@ -48,7 +48,7 @@ def test_the_config_that_is_shown_is_the_config_that_is_built_in() -> None:
     ids=["tracker/navigation/alarms/limits.py", "tracker/navigation/figures.py"],
 )
 def test_the_defaults_of_the_tracker_are_those_of_the_settings(own: object, of_settings: object) -> None:
-    differing = differences(asdict(own), asdict(of_settings))  # type: ignore[call-overload]  # dataclasses
+    differing = differences(asdict(own), asdict(of_settings))  # pyrefly: ignore[bad-argument-type]  # dataclasses
     assert not differing, f"one limit has one default: (tracker, server/config.py) {differing}"
 
 

@@ -73,7 +73,7 @@ def main(rows: int) -> None:
     from tracker.warm_up import Part, warm_up  # noqa: PLC0415
 
     times = CompileTimes()
-    register("numba:compile", times)  # type: ignore[no-untyped-call]
+    register("numba:compile", times)
     for step in ("add_ir_module", "finalize"):
         setattr(CPUCodeLibrary, step, times.timed(getattr(CPUCodeLibrary, step)))
     parts = []
@@ -100,5 +100,5 @@ if __name__ == "__main__":
     parser.add_argument("--rows", type=int, default=40, help="number of functions in the table")
     chosen = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        numba.config.CACHE_DIR = folder  # type: ignore[attr-defined]
+        numba.config.CACHE_DIR = folder
         main(chosen.rows)

@@ -73,8 +73,8 @@ class ScreenCamera(ImageServer):
 
 
 class _Stream(BaseHTTPRequestHandler):
-    def log_message(self, *args: object) -> None:
-        del args
+    def log_message(self, format: str, *args: object) -> None:  # noqa: A002  the base's name
+        del format, args
 
     def do_GET(self) -> None:
         camera = self.server

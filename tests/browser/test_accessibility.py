@@ -129,7 +129,7 @@ def test_every_other_view(opened: Callable[..., Page], path: str) -> None:
     page = opened(path, UPRIGHT if path == "/operator" else LYING)
     page.wait_for_function("() => document.body.innerText.length > 20")
     assert faults(page) == []
-    assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]  # type: ignore[index]  # it has one
+    assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]  # pyrefly: ignore[unsupported-operation]  # it has one
 
 
 def test_the_supervisor_s_view_while_it_is_live(opened: Callable[..., Page]) -> None:

@@ -44,7 +44,7 @@ def schema(tmp_path_factory: pytest.TempPathFactory) -> Iterator[schemathesis.Ba
         server.ask("POST", f"/api/cases/{case['id']}/open", 200)
         server.show(at_s=1.0, image=np.zeros((720, 1280, 3), dtype=np.uint8), rate_hz=30.0)
         described = server.ask("GET", "/api/openapi.json", 200)
-        with served(server.door.app, begun=True) as port:  # type: ignore[arg-type]  # a FastAPI app
+        with served(server.door.app, begun=True) as port:  # pyrefly: ignore[bad-argument-type]  # a FastAPI app
             schema = schemathesis.openapi.from_dict(described)
             schema.config.update(base_url=f"http://127.0.0.1:{port}")
             yield schema

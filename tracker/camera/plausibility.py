@@ -215,7 +215,7 @@ def _projected(angles: Array, azimuths: Array, matrix: Array, distortion: Array)
     # Columns 3 and 4 are the derivatives by a translation along x and y, which at z = 1 are those by x, y.
     jacobian = derivative[:, 3:5].reshape(*angles.shape, 2, 2)
     px = bent.reshape(*angles.shape, 2) * matrix[[0, 1], [0, 1]] + matrix[:2, 2]
-    return np.asarray(px), np.asarray(jacobian)
+    return np.asarray(px, dtype=float), np.asarray(jacobian, dtype=float)
 
 
 def _local_scales(jacobian: Array, angles: Array, azimuths: Array) -> tuple[Array, Array, Array]:

@@ -101,4 +101,4 @@ def _covariance(points: Array, normals: Array, weight: Array, rotation: Array) -
     jacobian = np.column_stack([*columns, np.ones(len(points))])
     information = jacobian.T @ (jacobian * weight[:, None])
     information[6, 6] += 1.0 / SHIFT_SD_PX**2
-    return np.asarray(np.linalg.inv(information))
+    return np.asarray(np.linalg.inv(information), dtype=float)

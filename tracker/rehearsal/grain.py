@@ -5,6 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 Image32 = npt.NDArray[np.float32]
+Coordinates = npt.NDArray[np.floating]
 TILE = 256
 
 
@@ -22,16 +23,16 @@ class Grain:
         soft = cv2.GaussianBlur(white, (0, 0), 0.6, borderType=cv2.BORDER_REFLECT_101)
         self._white: Image32 = np.asarray(soft, dtype=np.float32)
 
-    def clouds(self, x_mm: Image32, y_mm: Image32, period_mm: float) -> Image32:
+    def clouds(self, x_mm: Coordinates, y_mm: Coordinates, period_mm: float) -> Image32:
         """Return low-frequency noise with period `period_mm` at coordinates of equal shape (h, w)."""
         return _looked_up(self._cloudy, x_mm, y_mm, TILE / period_mm)
 
-    def specks(self, x_mm: Image32, y_mm: Image32, speck_mm: float) -> Image32:
+    def specks(self, x_mm: Coordinates, y_mm: Coordinates, speck_mm: float) -> Image32:
         """Return fine specks of this size."""
         return _looked_up(self._white, x_mm, y_mm, 1.0 / speck_mm)
 
 
-def _looked_up(tile: Image32, x_mm: Image32, y_mm: Image32, per_mm: float) -> Image32:
+def _looked_up(tile: Image32, x_mm: Coordinates, y_mm: Coordinates, per_mm: float) -> Image32:
     # A wide tile with its first row and column again lets plain bilinear lookup run over the seam.
     wide = np.pad(tile, ((0, 1), (0, 1)), mode="wrap")
     x = np.mod(x_mm * np.float32(per_mm), TILE).astype(np.float32)

@@ -100,7 +100,9 @@ def _samples(
 def _nearest(parts: list[_Part]) -> RasterSamples:
     if not parts:
         parts = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 3), np.float32))]
-    pixel, face, over_depth = (np.concatenate([part[i] for part in parts]) for i in range(3))
+    pixel = np.concatenate([part[0] for part in parts])
+    face = np.concatenate([part[1] for part in parts])
+    over_depth = np.concatenate([part[2] for part in parts])
     nearness = over_depth.sum(axis=1)
     order = np.lexsort((-nearness, pixel))
     pixel_in_order = pixel[order]

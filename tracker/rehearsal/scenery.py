@@ -11,7 +11,7 @@ from tracker.geometry import Camera, Rigid, Vertebra
 from tracker.rehearsal.anatomy import Needle, bone_field, bone_normals
 from tracker.rehearsal.clutter import PLACES, Sheet, instruments, sheets
 from tracker.rehearsal.field import OperatingField
-from tracker.rehearsal.grain import Grain
+from tracker.rehearsal.grain import Coordinates, Grain
 from tracker.rehearsal.lamp import TO_LAMP, lit, shine
 from tracker.rehearsal.lens import NODE_PX, RayGrid, resized, spread
 from tracker.rehearsal.placement import Placement, Room
@@ -120,7 +120,7 @@ def _soft_shade(points: Image32, rods: list[Rod], patient: Rigid[Room, Vertebra]
     return resized(left.reshape(height // 2, width // 2), width, height)
 
 
-def _bone_shadow(points: Image32, lift_mm: float) -> Image32:
+def _bone_shadow(points: Coordinates, lift_mm: float) -> Image32:
     """Return the shadow of the bone, 0..1, at points (n, 3)."""
     openness = np.full(len(points), np.float32(1.0))
     for step_mm in LAMP_STEPS_MM:

@@ -49,21 +49,19 @@ MIN_VIEW_COSINE = 0.26  # a marker cannot be detected at more than 75 degrees
 
 
 class HandMotion(Protocol):
-    """Protocol of a hand that moves the drill.
+    """Protocol of a hand that moves the drill."""
 
-    Attributes:
-        cycle_s: period of the motion.
-    """
+    @property
+    def cycle_s(self) -> float:
+        """Period of the motion."""
 
-    cycle_s: float
-
-    def at(self, at_s: float) -> Pose6:
+    def at(self, at_s: float, /) -> Pose6:
         """Return the drill pose at this time."""
 
-    def phase_at(self, at_s: float) -> Phase:
+    def phase_at(self, at_s: float, /) -> Phase:
         """Return the phase of the motion at this time."""
 
-    def touched_at(self, at_s: float) -> str:
+    def touched_at(self, at_s: float, /) -> str:
         """Return the name of the landmark under the tip; empty if there is none."""
 
 

@@ -62,7 +62,7 @@ class Viewer(asyncio.BufferedProtocol):
         upgrade = "" if self.kind == "mjpeg" else UPGRADE
         self._transport.write(f"{head}{upgrade}\r\n".encode())
 
-    def get_buffer(self, _sizehint: int) -> bytearray:
+    def get_buffer(self, sizehint: int) -> bytearray:  # noqa: ARG002  the base has it
         """Return the receive buffer."""
         return self._buffer
 

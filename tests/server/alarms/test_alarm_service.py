@@ -216,7 +216,7 @@ def test_a_moved_camera_alarms_and_does_not_end_navigation(room: Room, snapshot_
 def test_a_theatre_without_sound_is_reported_once_navigation_is_on(snapshot_of: SnapshotOf) -> None:
     room = Room(snapshot_of)
     room.service.close_screen("theatre-1")
-    room.service.report_screen = lambda *_args, **_keys: room.service.picture  # type: ignore[method-assign]  # mute
+    room.service.report_screen = lambda *_args, **_keys: room.service.picture  # pyrefly: ignore[method-assign]  # mute
     assert room.images(4.0).alarms == ()
     assert conditions(room.images(3.0)) == [Condition.NO_ARMED_SCREEN]
 

@@ -220,7 +220,7 @@ def test_a_download_goes_on_when_its_case_is_deleted(
 
 def test_a_full_disk_has_a_status_of_its_own(door: TestClient, store: CaseStore) -> None:
     pool = store._database._engine.raw_connection()
-    pool.driver_connection.execute("PRAGMA max_page_count = 1")  # type: ignore[union-attr]  # SQLite's own
+    pool.driver_connection.execute("PRAGMA max_page_count = 1")  # pyrefly: ignore[missing-attribute]  # SQLite's own
     pool.close()
     while (answer := door.post("/api/cases", json={"name": "x" * 200})).status_code == 201:
         pass

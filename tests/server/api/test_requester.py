@@ -70,7 +70,7 @@ def every(kind: type[Message]) -> Iterator[type[Message]]:
 def read_as_ito(message: type[Message], field: str) -> list[object]:
     """Value of a message's name field in a request of Dr Ito, with another name and with none."""
     described = message.model_fields[field]
-    only = create_model("Only", **{field: (described.annotation, described)})  # type: ignore[call-overload]  # by name
+    only = create_model("Only", **{field: (described.annotation, described)})  # pyrefly: ignore[no-matching-overload]  # by name
 
     async def read() -> list[object]:
         await set_requester(HTTPConnection({"type": "http", "state": {STATE_KEY: ITO}}))

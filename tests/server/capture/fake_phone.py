@@ -33,7 +33,7 @@ def image(number: int, captured_at_s: float = 1.0, **changes: object) -> PhoneIm
         clock=ImageClock.BROWSER,
         camera=CAMERA,
     )
-    return replace(made, **changes)  # type: ignore[arg-type]  # any of its fields
+    return replace(made, **changes)  # pyrefly: ignore[bad-argument-type]  # any of its fields
 
 
 class Script:

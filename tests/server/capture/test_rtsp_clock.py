@@ -29,7 +29,7 @@ def serve() -> Iterator[Callable[..., RtspServer]]:
     servers: list[RtspServer] = []
 
     def made(*arguments: Sequence[RtpImage], **keywords: bool | float) -> RtspServer:
-        servers.append(RtspServer(*arguments, **keywords))  # type: ignore[arg-type]
+        servers.append(RtspServer(*arguments, **keywords))  # pyrefly: ignore[bad-argument-type]
         return servers[-1]
 
     yield made

@@ -53,8 +53,8 @@ class LyingServer(ImageServer):
 
 
 class _Handler(BaseHTTPRequestHandler):
-    def log_message(self, *args: object) -> None:
-        del args
+    def log_message(self, format: str, *args: object) -> None:  # noqa: A002  the base's name
+        del format, args
 
     def do_GET(self) -> None:
         server = self.server

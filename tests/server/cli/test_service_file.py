@@ -26,7 +26,7 @@ def unit() -> str:
 
 def settings(unit: str) -> configparser.SectionProxy:
     parser = configparser.ConfigParser(strict=False, interpolation=None)
-    parser.optionxform = str  # type: ignore[assignment,method-assign]  # systemd's names have capitals
+    parser.optionxform = str  # pyrefly: ignore[bad-assignment, method-assign]  # systemd's names have capitals
     parser.read_string(unit)
     return parser["Service"]
 

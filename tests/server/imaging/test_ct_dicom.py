@@ -72,13 +72,13 @@ STACKS = {
 
 
 @pytest.mark.parametrize("stack", STACKS.values(), ids=STACKS.keys())
-def test_slices_lie_where_their_files_say(tmp_path: Path, stack: dict) -> None:  # type: ignore[type-arg]  # keywords
+def test_slices_lie_where_their_files_say(tmp_path: Path, stack: dict) -> None:  # pyrefly: ignore[implicit-any-type-argument]  # keywords
     made = made_ct(**stack)
     assert_whole(made, made.write(tmp_path))
 
 
 def test_a_tilted_gantry_is_reported(tmp_path: Path) -> None:
-    ct = read_ct(made_ct(**STACKS["tilted-gantry"]).write(tmp_path))  # type: ignore[arg-type]  # keywords
+    ct = read_ct(made_ct(**STACKS["tilted-gantry"]).write(tmp_path))
     assert any("tilted by 20.0 deg" in said for said in ct.warnings)
 
 

@@ -93,7 +93,7 @@ def test_an_error_keeps_its_words(jobs: Jobs) -> None:
 
 @pytest.mark.parametrize("work", [job_functions.blunder, job_functions.say_nothing_sensible])
 def test_a_mistake_of_the_program_tells_a_stranger_nothing(jobs: Jobs, work: object) -> None:
-    failed = jobs.wait_for(jobs.start("reading", work).id)  # type: ignore[arg-type]  # either of two
+    failed = jobs.wait_for(jobs.start("reading", work).id)  # pyrefly: ignore[bad-argument-type]  # either of two
     assert failed.problem is not None
     assert failed.problem.code == "JOB_FAILED"
     assert "Zaphod" not in str(failed)

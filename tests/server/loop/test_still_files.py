@@ -35,7 +35,7 @@ def rendered(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
     def counted(*given: object) -> object:
         out.append("rendered")
-        return render(*given)  # type: ignore[arg-type]  # as it was called
+        return render(*given)  # pyrefly: ignore[bad-argument-type]  # as it was called
 
     monkeypatch.setattr(backdrop, "still_scenery", counted)
     return out

@@ -106,6 +106,6 @@ def test_a_state_that_cannot_be_captured_or_is_too_large_stops_nothing(
 ) -> None:
     small = ImageRing(image_bytes=64 * 48 * 3, state_bytes=100)
     assert StateSender(small, LatestRequest(), is_recording=True).store(tracking) == -1
-    monkeypatch.setattr("server.loop.tracking_state.capture_state", lambda _: 1 / 0)
+    monkeypatch.setattr("server.loop.tracking_state.capture_state", lambda _: int("no"))
     ring = ImageRing(image_bytes=64 * 48 * 3)
     assert StateSender(ring, LatestRequest(), is_recording=True).store(tracking) == -1

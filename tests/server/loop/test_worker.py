@@ -114,9 +114,9 @@ class SpyRing(ImageRing):
         self._unpacker = ReportUnpacker()
         self.ended = threading.Event()
 
-    def write(self, note: bytes, image: np.ndarray | None = None, *, encoded: bytes = b"") -> None:
-        super().write(note, image, encoded=encoded)
-        report = self._unpacker.unpack(note)
+    def write(self, payload: bytes, image: np.ndarray | None = None, *, encoded: bytes = b"") -> None:
+        super().write(payload, image, encoded=encoded)
+        report = self._unpacker.unpack(payload)
         self.reports.append(report)
         if report.source.state is SourceState.ENDED:
             self.ended.set()

@@ -91,7 +91,7 @@ def test_ras_turns_the_vertebra_and_leaves_the_camera() -> None:
 def test_what_is_not_known_is_a_status_with_its_reason(
     given: dict[str, float], in_camera: str, in_vertebra: str
 ) -> None:
-    found = devices(make_snapshot(**given))  # type: ignore[arg-type]
+    found = devices(make_snapshot(**given))  # pyrefly: ignore[bad-argument-type]
     for device, reason in (
         ("drillToCamera", in_camera),
         ("drillToVertebra", in_vertebra),
@@ -132,7 +132,7 @@ DIED = Problem(code="TRACKING_DIED", message="it died 6 times", remedy="")
 def test_nothing_is_known_while_capture_or_tracking_does_not_run(
     stopped: dict[str, object], why: str
 ) -> None:
-    given = contents(**{"snapshot": make_snapshot(judged=True), **stopped})  # type: ignore[arg-type]
+    given = contents(**{"snapshot": make_snapshot(judged=True), **stopped})  # pyrefly: ignore[bad-argument-type]
     assert given.captured_at_s is None
     assert [wire.string_of(one.content) for one in given.image] == ["NO IMAGE"]
     for one in (given.plan, given.program):
@@ -146,8 +146,8 @@ def two_tools(snapshot: NavigationSnapshot, second: str) -> NavigationSnapshot:
         return {"drill": one["drill"], second: one["drill"]}
 
     changed = {name: both(getattr(snapshot, name)) for name in ("tools", "deviations", "assessments")}
-    setup = replace(snapshot.setup, tools=both(snapshot.setup.tools))  # type: ignore[arg-type]
-    return replace(snapshot, setup=setup, **changed)  # type: ignore[arg-type]
+    setup = replace(snapshot.setup, tools=both(snapshot.setup.tools))  # pyrefly: ignore[bad-argument-type]
+    return replace(snapshot, setup=setup, **changed)  # pyrefly: ignore[bad-argument-type]
 
 
 @pytest.mark.parametrize(

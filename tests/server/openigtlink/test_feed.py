@@ -22,7 +22,7 @@ def feed() -> Feed:
 
 
 def sent(to: Feed, *, captured_at_s: float = 100.0, after_s: float = 0.03, **given: object) -> list[Message]:
-    snapshot = make_snapshot(judged=True, captured_at_s=captured_at_s, **given)  # type: ignore[arg-type]
+    snapshot = make_snapshot(judged=True, captured_at_s=captured_at_s, **given)  # pyrefly: ignore[bad-argument-type]
     return to.messages(contents(snapshot), now_s=captured_at_s + after_s, unix_offset_s=UNIX_S)
 
 

@@ -31,7 +31,7 @@ def of_ours(content: bytes) -> Message:
 
 
 def message(kind: str, content: bytes, **more: object) -> Message:
-    return Message(type=kind, device="DrillToVertebra", timestamp_s=AT_S, content=content, **more)  # type: ignore[arg-type]
+    return Message(type=kind, device="DrillToVertebra", timestamp_s=AT_S, content=content, **more)  # pyrefly: ignore[bad-argument-type]
 
 
 @pytest.mark.parametrize("version", [1, 2])

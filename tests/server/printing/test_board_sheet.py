@@ -53,7 +53,7 @@ def drawn(svg: str) -> Grey:
 
 
 def page_of(board: Board, **how: str) -> Grey:
-    return drawn(svg_from_sheet(board_sheet(board, **how)))  # type: ignore[arg-type]  # its words alone
+    return drawn(svg_from_sheet(board_sheet(board, **how)))  # pyrefly: ignore[bad-argument-type]  # its words alone
 
 
 def in_mm(px: MatLike) -> Points:

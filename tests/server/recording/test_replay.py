@@ -65,7 +65,7 @@ def test_a_pose_in_which_one_digit_differs_is_named_and_the_worst_one_too(
     genuine = Tracking.process
 
     def moved(self: Tracking, shot: object, **options: object) -> object:
-        snapshot = genuine(self, shot, **options)  # type: ignore[arg-type]
+        snapshot = genuine(self, shot, **options)  # pyrefly: ignore[bad-argument-type]
         seen = snapshot.sightings["drill"]
         shift = {6: 1e-13, 7: 0.25}.get(snapshot.image_number, 0.0)
         if not shift:

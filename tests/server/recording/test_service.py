@@ -42,7 +42,7 @@ class Theatre:
         )
 
     def _make(self, *given: object, **named: object) -> Recorder:
-        self.recorders.append(NoRecorder(*given, **named))  # type: ignore[arg-type]
+        self.recorders.append(NoRecorder(*given, **named))  # pyrefly: ignore[bad-argument-type]
         return self.recorders[-1]
 
     def open_a_case(self) -> str:

@@ -60,7 +60,7 @@ class FullDisk(io.FileIO):
     left = 2500
 
     def write(self, content: object, /) -> int:
-        data = memoryview(content)  # type: ignore[arg-type]
+        data = memoryview(content)  # pyrefly: ignore[bad-argument-type]
         if self.left == 0:
             raise OSError(errno.ENOSPC, "No space left on device")
         # A nearly full disk accepts a part of it.

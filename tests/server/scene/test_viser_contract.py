@@ -26,7 +26,7 @@ ALPHABET = "".join(chr(c) for c in range(0x21, 0x7F) if chr(c) not in "\"&<>'`")
 
 
 def names(function: object) -> list[str]:
-    return list(inspect.signature(function).parameters)  # type: ignore[arg-type]  # callables only, as used below
+    return list(inspect.signature(function).parameters)  # pyrefly: ignore[bad-argument-type]  # callables only, as used below
 
 
 def test_the_version_is_the_one_that_was_read() -> None:

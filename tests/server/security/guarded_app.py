@@ -56,7 +56,8 @@ class Guarded:
 
     def invited(self, role: Role = Role.OPERATOR, **wanted: Any) -> str:  # noqa: ANN401  as Wanted takes it
         """The token of a new invitation."""
-        requested = NewInvitation(**{"name": role.value, "role": role, "lasts": timedelta(hours=1), **wanted})
+        usual: dict[str, Any] = {"name": role.value, "role": role, "lasts": timedelta(hours=1)}
+        requested = NewInvitation(**(usual | wanted))
         return self.people.invite(requested, by="test")[1].text
 
     def token(self, role: Role = Role.OPERATOR, **wanted: Any) -> str:  # noqa: ANN401  as Wanted takes it

@@ -125,7 +125,7 @@ def test_what_is_changed_is_written_with_who_and_from_what_to_what(house: Guarde
     operator = house.bearer()
     case = house.door.post("/api/cases", json={"name": "Doe, J."}, headers=operator).json()["id"]
     line = last_line(house)
-    assert line["who"] == {**line["who"], "name": "operator", "role": "operator"}  # type: ignore[dict-item]
+    assert line["who"] == {**line["who"], "name": "operator", "role": "operator"}  # pyrefly: ignore[invalid-argument]
     assert (line["what"], line["status"]) == ("POST /api/cases", 201)
     assert line["changes"] == [{"what": "case", "case_id": case, "from": None, "to": "here"}]
     house.door.post(f"/api/cases/{case}/open", headers=operator)
@@ -249,7 +249,7 @@ def test_what_was_done_for_somebody_who_has_gone_is_written(tmp_path: Path) -> N
 
     async def ask() -> None:
         with pytest.raises(asyncio.CancelledError):
-            await run_audited(left, {}, left, nobody, audit=log, entry=entry)  # type: ignore[arg-type]
+            await run_audited(left, {}, left, nobody, audit=log, entry=entry)  # pyrefly: ignore[bad-argument-type]
 
     asyncio.run(ask())
     assert log.head.count == 1

@@ -229,12 +229,12 @@ def _record_before_naming() -> None:
             return files.size_and_sha256(stream.fileno())
 
     def record(database: object, case_id: str, file_id: str, size_bytes: int, sha256: str) -> object:
-        stored = real_record(database, case_id, file_id, size_bytes, sha256)  # type: ignore[arg-type]  # a fault
+        stored = real_record(database, case_id, file_id, size_bytes, sha256)  # pyrefly: ignore[bad-argument-type]  # a fault
         real_settle(stored.path.with_name(f"{files.UNFINISHED}{file_id}"), stored.path)
         return stored
 
     real_settle, real_record = files.commit_file, files._record
-    files.commit_file, files._record = commit_file, record  # type: ignore[assignment]  # a fault
+    files.commit_file, files._record = commit_file, record  # pyrefly: ignore[bad-assignment]  # a fault
 
 
 def _say(what: str, case_id: str, **more: object) -> None:

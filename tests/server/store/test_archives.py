@@ -80,7 +80,7 @@ def test_a_case_comes_back_as_it_was(store: CaseStore, case: Case) -> None:
         return reported.replace(case.id, "").replace(again.id, "").replace(SAYS_ARCHIVE, "")
 
     assert comparable(store.outline(again.id)) == comparable(store.outline(case.id))
-    assert store.latest(again.id, DocumentKind.CT, "main").content == {"mm": 0.1 + 0.2}  # type: ignore[union-attr]  # there
+    assert store.latest(again.id, DocumentKind.CT, "main").content == {"mm": 0.1 + 0.2}  # pyrefly: ignore[missing-attribute]  # there
     assert store.verify(again.id) == ()
     before, after = store.files(case.id)[0], store.files(again.id)[0]
     assert (before.id, before.sha256) == (after.id, after.sha256)

@@ -165,7 +165,7 @@ def test_a_change_made_on_another_version_is_rejected_with_both_numbers(
 )
 def test_what_json_cannot_say_is_rejected(store: CaseStore, case_id: str, content: object, said: str) -> None:
     with pytest.raises(InvalidInput, match=said) as rejected:
-        store.put(case_id, PLAN, "a", content, made_by="ito")  # type: ignore[arg-type]  # wrong on purpose
+        store.put(case_id, PLAN, "a", content, made_by="ito")  # pyrefly: ignore[bad-argument-type]  # wrong on purpose
     assert rejected.value.code == "CONTENT_NOT_JSON"
     assert store.history(case_id, PLAN, "a") == ()
 
@@ -204,7 +204,7 @@ def test_no_document_depends_on_the_patients_identity(store: CaseStore, put: Put
 
 def test_a_readers_change_of_a_content_affects_no_other(store: CaseStore, put: Put) -> None:
     document = put(PLAN, "a", numbers=[1])
-    document.content["numbers"].append(2)  # type: ignore[attr-defined]  # a list, as JSON has it
+    document.content["numbers"].append(2)  # pyrefly: ignore[missing-attribute]  # a list, as JSON has it
     assert store.document(document.case_id, document.id).content == {"numbers": [1]}
 
 

@@ -202,7 +202,7 @@ def test_a_full_disk_is_reported_and_costs_nothing_that_was_confirmed(store: Cas
         # SQLite's own limit fails with the error of a full disk.
         pages = session.connection().exec_driver_sql("PRAGMA page_count").scalar()
     pool = store._database._engine.raw_connection()
-    pool.driver_connection.execute(f"PRAGMA max_page_count = {pages}")  # type: ignore[union-attr]  # SQLite's own
+    pool.driver_connection.execute(f"PRAGMA max_page_count = {pages}")  # pyrefly: ignore[missing-attribute]  # SQLite's own
     pool.close()
     with pytest.raises(StoreError) as full:
         store.put(case.id, DocumentKind.PLAN, "a", {"much": "x" * 100_000}, made_by="ito")
@@ -221,7 +221,7 @@ def test_a_folder_that_may_not_be_written_is_reported(tmp_path: Path) -> None:
 
 def test_a_database_that_may_not_be_written_is_reported(store: CaseStore) -> None:
     pool = store._database._engine.raw_connection()
-    pool.driver_connection.execute("PRAGMA query_only = ON")  # type: ignore[union-attr]  # SQLite's own
+    pool.driver_connection.execute("PRAGMA query_only = ON")  # pyrefly: ignore[missing-attribute]  # SQLite's own
     pool.close()
     with pytest.raises(StoreError) as rejected:
         store.create("one")

@@ -35,7 +35,10 @@ class MadePictures(PictureCache):
         self.made: set[tuple[int, PictureSize]] = set()
 
     async def of(
-        self, instant: Instant, size: PictureSize, _content: OverlayContent = OverlayContent.FULL
+        self,
+        instant: Instant,
+        size: PictureSize,
+        content: OverlayContent = OverlayContent.FULL,  # noqa: ARG002  no part of the size
     ) -> bytes:
         self.made.add((instant.sequence, size))
         return b"\xff" * BYTES[size]

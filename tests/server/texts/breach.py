@@ -19,7 +19,7 @@ def peak(value: float, *, at_s: float = 3.0) -> Peak:
 
 
 def alarm(condition: Condition, state: AlarmState = AlarmState.ACTIVE, **changes: object) -> Alarm:
-    return replace(Alarm(number=1, condition=condition, state=state, raised_at_s=2.0), **changes)  # type: ignore[arg-type]  # any field of it
+    return replace(Alarm(number=1, condition=condition, state=state, raised_at_s=2.0), **changes)  # pyrefly: ignore[bad-argument-type]  # any field of it
 
 
 def breach(**changes: object) -> Alarm:
@@ -29,4 +29,4 @@ def breach(**changes: object) -> Alarm:
         "site": MEDIAL,
         "peak": peak(-0.8),
     }
-    return replace(alarm(Condition.BREACH), **{**values, **changes})  # type: ignore[arg-type]  # any field of it
+    return replace(alarm(Condition.BREACH), **{**values, **changes})  # pyrefly: ignore[bad-argument-type]  # any field of it

@@ -62,7 +62,7 @@ class Theatre:
         self, seconds: float, where: Mapping[str, tuple[float, ...]], **changes: object
     ) -> AlarmSnapshot:
         """Tools that are not given are unseen."""
-        setup = replace(self.setup, **changes)  # type: ignore[arg-type]  # any field of it
+        setup = replace(self.setup, **changes)  # pyrefly: ignore[bad-argument-type]  # any field of it
         for _ in range(round(seconds * 10)):
             self.at_s += 0.1
             self.number += 1

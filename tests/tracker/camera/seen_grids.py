@@ -11,7 +11,7 @@ CAMERA = CameraModel(
     matrix=MATRIX, distortion=np.array([-0.25, 0.1, 0.001, -0.001, 0.0]), size_wh_px=(1280, 720)
 )
 TURN, MOVE = rotation_from_vector(np.array([0.45, -0.25, 0.1])), np.array([-60.0, -40.0, 320.0])
-GRID = np.stack(np.meshgrid(np.arange(9) * 15.0, np.arange(7) * 15.0), axis=-1).reshape(-1, 2)
+GRID = np.stack(np.meshgrid(np.arange(9) * 15.0, np.arange(7) * 15.0), axis=-1).reshape(-1, 2).astype(float)
 
 
 def seen_at(points_mm: Array, camera: CameraModel = CAMERA) -> Array:

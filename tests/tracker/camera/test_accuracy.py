@@ -102,10 +102,10 @@ def test_the_ruler_in_the_form_of_table_2() -> None:
     report = accuracy_of_ruler(
         ruler,
         Displacements(
-            first_mm=[[164.0, 106.0], [150.0, 119.0]],  # type: ignore[arg-type]  # lists will do
-            second_mm=[[150.0, 94.0], [140.0, 102.0]],  # type: ignore[arg-type]
-            first_px=[[422.0, 429.0], [405.0, 416.0]],  # type: ignore[arg-type]
-            second_px=[[406.0, 441.0], [393.0, 433.0]],  # type: ignore[arg-type]
+            first_mm=[[164.0, 106.0], [150.0, 119.0]],  # pyrefly: ignore[bad-argument-type]  # lists will do
+            second_mm=[[150.0, 94.0], [140.0, 102.0]],  # pyrefly: ignore[bad-argument-type]
+            first_px=[[422.0, 429.0], [405.0, 416.0]],  # pyrefly: ignore[bad-argument-type]
+            second_px=[[406.0, 441.0], [393.0, 433.0]],  # pyrefly: ignore[bad-argument-type]
         ),
     )
     assert report.errors_mm == pytest.approx([0.08, -0.45], abs=0.005)

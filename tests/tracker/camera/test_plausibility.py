@@ -114,7 +114,7 @@ def test_what_no_lens_can_be_is_rejected_with_its_numbers(
 @pytest.mark.parametrize("size", [(1920.5, 1080), (1920, np.nan), (np.inf, 1080), (1920,), (1920, 1080, 3)])
 def test_an_image_has_two_whole_numbers_of_pixels(size: tuple[float, ...]) -> None:
     with pytest.raises(InvalidInput, match="needed two whole numbers") as caught:
-        CameraModel(matrix=camera().matrix, distortion=np.zeros(5), size_wh_px=size)  # type: ignore[arg-type]
+        CameraModel(matrix=camera().matrix, distortion=np.zeros(5), size_wh_px=size)  # pyrefly: ignore[bad-argument-type]
     assert caught.value.code == "CAMERA_MODEL_INVALID"
 
 

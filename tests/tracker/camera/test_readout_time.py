@@ -72,7 +72,8 @@ def test_from_rendered_images_of_a_rolling_shutter_the_readout_is_found() -> Non
 def test_what_does_not_determine_it_is_rejected_with_numbers(
     motion: Motion, seen: dict[str, Any], code: str, says: str
 ) -> None:
-    views = seen_views(motion, **{"readout_s": 0.016, "images": 18, **seen})
+    usual: dict[str, Any] = {"readout_s": 0.016, "images": 18}
+    views = seen_views(motion, **(usual | seen))
     with pytest.raises(CalibrationError) as caught:
         estimate_readout(views, CAMERA)
     assert caught.value.code == code

@@ -49,7 +49,8 @@ def setup() -> Setup:
 
 def shifted(picture: npt.NDArray[np.uint8], px: float) -> npt.NDArray[np.uint8]:
     """View of a camera that was rotated slightly."""
-    return np.asarray(cv2.warpAffine(picture, np.array([[1.0, 0, px], [0, 1.0, 0]]), picture.shape[1::-1]))
+    moved = cv2.warpAffine(picture, np.array([[1.0, 0, px], [0, 1.0, 0]]), picture.shape[1::-1])
+    return np.asarray(moved, dtype=np.uint8)
 
 
 class Play:

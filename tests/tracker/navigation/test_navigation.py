@@ -35,14 +35,16 @@ CHANNEL = Channel(
 def _drill(
     tip_mm: tuple[float, float, float], direction: tuple[float, float, float]
 ) -> Rigid[Vertebra, Tool]:
-    return ToolModel.from_tip_and_axis(
+    # The same construction, for a frame of the test's choice.
+    placed = ToolModel.from_tip_and_axis(
         name="drill",
         marker="drill",
         tip_in_marker_mm=tip_mm,
         axis_in_marker=direction,
         radius_mm=2.0,
         length_mm=100.0,
-    ).marker_from_tool  # type: ignore[return-value]  # the same construction, for a frame of the test's choice
+    ).marker_from_tool
+    return Rigid(rotation=placed.rotation, translation_mm=placed.translation_mm)
 
 
 TAN_30 = float(np.tan(np.radians(30)))

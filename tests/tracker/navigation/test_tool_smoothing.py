@@ -122,7 +122,7 @@ def test_the_tip_is_no_surer_than_in_its_images() -> None:
     snapshot = navigated(SmoothingSettings(lag_ms=50.0), [FAR] * 4)[-1]
     tool, sighting = snapshot.tools["drill"], make_snapshot(tip_in_vertebra_mm=FAR).sightings["drill"]
     assert isinstance(tool, ToolPose)
-    own = marker_point_covariance_mm2(sighting.camera_from_marker, sighting.pose_covariance, [0, -70, 0])  # type: ignore[union-attr]  # it is seen
+    own = marker_point_covariance_mm2(sighting.camera_from_marker, sighting.pose_covariance, [0, -70, 0])  # pyrefly: ignore[missing-attribute]  # it is seen
     assert np.trace(tool.tip_covariance_mm2) >= np.trace(own) * (1 - 1e-9)
 
 

@@ -66,7 +66,7 @@ def test_a_turn_over_is_a_jump_even_where_the_covariance_spans_it() -> None:
 
 
 def test_a_fast_hand_is_shown_without_lag() -> None:
-    steps = np.arange(8)[:, None] * PERIOD_S * np.array([100.0, 0, 0, 0, 0, 0])
+    steps = np.outer(np.arange(8.0) * PERIOD_S, [100.0, 0, 0, 0, 0, 0]).astype(float)
     assert [one.lag_ms for one in taken(PoseSmoother(lag_ms=100.0), steps)] == [0.0] * 8
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from tests.tracker.pose.shared_motion import (
     HandMotion,
@@ -131,13 +132,13 @@ def test_clocks_that_count_from_1970_give_the_same_offset() -> None:
 @pytest.mark.parametrize("motion", Motion)
 def test_a_gap_is_not_interpolated_across(motion: Motion) -> None:
     # While the first source sees nothing, the tool moves violently.
-    def thrown(times_s: np.ndarray) -> tuple[object, np.ndarray]:
+    def thrown(times_s: np.ndarray) -> tuple[Rotation, np.ndarray]:
         turned, places_mm = HandMotion(seed=4, rotation_deg=60.0, shift_mm=300.0, rates_hz=(1.0, 3.0))(
             times_s
         )
         calm, calm_mm = HAND(times_s)
         weight = np.clip(1.0 - np.abs(times_s - 6.0) / 0.9, 0.0, None) ** 2
-        return type(turned).from_rotvec(weight[:, None] * turned.as_rotvec()) * calm, calm_mm + (
+        return Rotation.from_rotvec(weight[:, None] * turned.as_rotvec()) * calm, calm_mm + (
             weight[:, None] * places_mm
         )
 

@@ -139,7 +139,7 @@ def test_events_begin_and_end_on_schedule() -> None:
 )
 def test_an_event_out_of_range_is_rejected_by_name(key: str, value: float) -> None:
     with pytest.raises(InvalidInput) as caught:
-        Event(**{"kind": EventKind.CAMERA_MOVES, "at_s": 1.0, key: value})  # type: ignore[arg-type]  # wrong on purpose
+        Event(**{"kind": EventKind.CAMERA_MOVES, "at_s": 1.0, key: value})  # pyrefly: ignore[bad-argument-type]  # wrong on purpose
     assert caught.value.code == "REHEARSAL_SETTING_INVALID"
     assert key in caught.value.message
 

@@ -122,6 +122,6 @@ def test_the_lens_bends_lines_visibly() -> None:
 )
 def test_a_setting_out_of_range_is_rejected_by_name(key: str, value: object) -> None:
     with pytest.raises(InvalidInput) as caught:
-        TheatreSettings(**{key: value})  # type: ignore[arg-type]  # wrong on purpose
+        TheatreSettings(**{key: value})  # pyrefly: ignore[bad-argument-type]  # wrong on purpose
     assert caught.value.code == "REHEARSAL_SETTING_INVALID"
     assert key in caught.value.message

@@ -99,7 +99,7 @@ def noise_is_correlated(
 def _neighbours(view: BoardView) -> Array:
     """Return the pairs of points (m, 2) that are adjacent on the board."""
     points = view.object_points_mm[:, :2]
-    tree = scipy.spatial.cKDTree(points)
+    tree = scipy.spatial.KDTree(points)
     nearest, _ = tree.query(points, k=2)
     pairs = tree.query_pairs(1.05 * float(np.median(nearest[:, 1])), output_type="ndarray")
     return np.asarray(pairs).reshape(-1, 2)

@@ -96,7 +96,7 @@ def _handedness(homography: Array, at: Array) -> float:
 
 
 def _step_px(px: Array) -> float:
-    nearest, _ = scipy.spatial.cKDTree(px).query(px, k=2)
+    nearest, _ = scipy.spatial.KDTree(px).query(px, k=2)
     return float(np.median(nearest[:, 1]))
 
 

@@ -58,7 +58,7 @@ def largest_lattice(points_px: Array) -> Lattice:
     """Return the largest regular grid among points (n, 2); a grid without points if there is none."""
     best: dict[Cell, int] = {}
     if len(points_px) >= 5:
-        tree = scipy.spatial.cKDTree(points_px)
+        tree = scipy.spatial.KDTree(points_px)
         tried: set[int] = set()
         for seed in _seeds(points_px):
             if seed in tried:
@@ -109,7 +109,7 @@ def _seeds(points_px: Array) -> list[int]:
     return [int(i) for i in from_middle[: SEEDS // 4]] + [int(i) for i in from_middle[spread]]
 
 
-def _basis_at(points_px: Array, tree: "scipy.spatial.cKDTree", seed: int) -> tuple[Array, Array] | None:
+def _basis_at(points_px: Array, tree: "scipy.spatial.KDTree", seed: int) -> tuple[Array, Array] | None:
     """Return two basis steps from a point to neighbours that also exist in the opposite direction."""
     here = points_px[seed]
     _, near = tree.query(here, k=min(NEIGHBOURS, len(points_px)))
@@ -130,7 +130,7 @@ def _basis_at(points_px: Array, tree: "scipy.spatial.cKDTree", seed: int) -> tup
 
 
 def _grown(
-    points_px: Array, tree: "scipy.spatial.cKDTree", seed: int, basis: tuple[Array, Array]
+    points_px: Array, tree: "scipy.spatial.KDTree", seed: int, basis: tuple[Array, Array]
 ) -> dict[Cell, int]:
     """Return the cells of points reached from the seed by region growing with similar steps."""
     a, b = basis

@@ -154,7 +154,7 @@ def _sampled_cells(wide: Array, off: Array) -> Float32:
     return np.asarray(seen[0])
 
 
-def _basis(wide: Array, seen: Float32) -> Array:
+def _basis(wide: Array, seen: Float32) -> Float32:
     columns = [seen, np.ones_like(seen)]
     for k in range(8):
         off = np.zeros((4, 2))

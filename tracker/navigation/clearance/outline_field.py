@@ -67,7 +67,8 @@ def _offsets(grid: Grid, from_mm: Array) -> npt.NDArray[np.float32]:
     nodes = np.stack(
         np.meshgrid(*[np.arange(n, dtype=np.float32) for n in grid.shape], indexing="ij"), axis=-1
     )
-    return np.asarray((grid.origin_mm - from_mm).astype(np.float32) + np.float32(grid.step_mm) * nodes)
+    from_origin = (grid.origin_mm - from_mm).astype(np.float32)
+    return np.asarray(from_origin + np.float32(grid.step_mm) * nodes, dtype=np.float32)
 
 
 def _field(against: WallSource, grid: Grid, distance_mm: npt.NDArray[np.float32]) -> WallDistanceField:

@@ -215,7 +215,7 @@ def _triangles(hu: npt.NDArray[np.float32], threshold_hu: float) -> tuple[Array,
         )
     if crossings == 0:
         raise _not_found(threshold_hu)
-    vertices, faces, _, _ = skimage.measure.marching_cubes(  # type: ignore[no-untyped-call]  # it has no types
+    vertices, faces, _, _ = skimage.measure.marching_cubes(
         hu, level, gradient_direction="descent", allow_degenerate=False
     )
     return np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64)

@@ -58,7 +58,7 @@ def proposed_threshold(hu: npt.NDArray[np.int16]) -> ThresholdProposal:
     threshold = minimum
     if np.count_nonzero(counts[brighter]) > 1:
         histogram = (counts[brighter], levels[brighter])
-        found = float(skimage.filters.threshold_isodata(hist=histogram))  # type: ignore[no-untyped-call]  # it has no types
+        found = float(skimage.filters.threshold_isodata(hist=histogram))
         threshold = float(np.clip(found, minimum, max(minimum, MAX_PROPOSED_HU)))
     return ThresholdProposal(
         threshold_hu=threshold,

@@ -34,7 +34,7 @@ def plain(value: object) -> Any:  # noqa: ANN401  JSON values have no narrower t
         return value.value
     if isinstance(value, Mapping):
         return {str(key): plain(one) for key, one in value.items()}
-    if isinstance(value, tuple | list):
+    if isinstance(value, (tuple, list)):
         return [plain(one) for one in value]
     return value
 
@@ -161,7 +161,7 @@ def _array(value: object, where: str) -> object:
 
 
 def _list(value: object, where: str) -> list[Any]:
-    if not isinstance(value, list | tuple):
+    if not isinstance(value, (list, tuple)):
         raise _invalid(where, "is no list")
     return list(value)
 

@@ -53,6 +53,11 @@ class Solid:
         return np.asarray(normal / max(float(np.linalg.norm(normal)), 1e-9))
 
 
+def _distance_mm(mask: npt.NDArray[np.bool_]) -> Array:
+    """Return the distance of each node of the mask to the nearest one outside of it."""
+    return np.asarray(scipy.ndimage.distance_transform_edt(mask, sampling=STEP_MM), dtype=float)
+
+
 def solid_around(near: Neighbourhood, isthmus_mm: Array) -> Solid:
     """Return the solid of bone and enclosed marrow; soft tissue is what wide gaps connect to the sides.
 
@@ -60,7 +65,7 @@ def solid_around(near: Neighbourhood, isthmus_mm: Array) -> Solid:
     """
     low = np.array([-ASIDE_MM, -AHEAD_MM, -UP_MM])
     high = np.array([ASIDE_MM, MAX_BEHIND_ENTRY_MM, UP_MM])
-    count = np.ceil((high - low) / STEP_MM).astype(int)
+    count = tuple(np.ceil((high - low) / STEP_MM).astype(int))
     corner = isthmus_mm + low
     index = np.moveaxis(np.indices(count), 0, -1).reshape(-1, 3)
     points = corner + STEP_MM * index
@@ -72,16 +77,16 @@ def solid_around(near: Neighbourhood, isthmus_mm: Array) -> Solid:
     gap = max(GAP_MM, float(np.linalg.norm(near.lps_from_index[:3, :3], axis=0).max()))
     bone = hu > limit
     air = (hu < AIR_HU) | ~inside
-    from_bone = scipy.ndimage.distance_transform_edt(~bone, sampling=STEP_MM)
+    from_bone = _distance_mm(~bone)
     wide = (from_bone > gap) | air
     label, _ = scipy.ndimage.label(wide)
     faces = [label[0], label[-1], label[:, 0], label[:, -1]]
     reached = np.unique(np.concatenate([face.ravel() for face in faces]))
     open_core = np.isin(label, reached[reached > 0]) & wide
-    soft = (scipy.ndimage.distance_transform_edt(~open_core, sampling=STEP_MM) <= gap) & ~bone
+    soft = (_distance_mm(~open_core) <= gap) & ~bone
     solid = ~(soft | open_core)
-    within = scipy.ndimage.distance_transform_edt(solid, sampling=STEP_MM)
-    without = scipy.ndimage.distance_transform_edt(~solid, sampling=STEP_MM)
+    within = _distance_mm(solid)
+    without = _distance_mm(~solid)
     # Half a voxel each way: the surface lies between the last voxel inside and the first outside.
     depth = np.where(solid, within - 0.5 * STEP_MM, 0.5 * STEP_MM - without)
     return Solid(corner_mm=corner, depth_mm=depth.astype(np.float32))

@@ -49,7 +49,7 @@ class Equations:
     def solved(self) -> Array:
         """Return the least-squares solution (k,), of minimum norm where a direction is undetermined."""
         flat = self.design.reshape(-1, self.design.shape[2])
-        return np.asarray(np.linalg.lstsq(flat, -self.offset.reshape(-1), rcond=None)[0])
+        return np.asarray(np.linalg.lstsq(flat, -self.offset.reshape(-1), rcond=None)[0], dtype=float)
 
 
 def least_trimmed_squares(equations: Equations) -> Array:

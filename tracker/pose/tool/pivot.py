@@ -249,7 +249,7 @@ def _whitening(poses: Poses, tip_in_marker_mm: Array) -> Array:
     arc = second_order_variance_mm2(poses.covariances, float(np.linalg.norm(tip_in_marker_mm)))
     noise = moved @ poses.covariances @ moved.transpose(0, 2, 1)
     noise = noise + (arc[:, None, None] + MIN_SD_MM**2) * np.eye(3)
-    return np.asarray(np.linalg.inv(np.linalg.cholesky(noise)))
+    return np.asarray(np.linalg.inv(np.linalg.cholesky(noise)), dtype=float)
 
 
 def _least_squares(poses: Poses, plain: Equations, x: Array) -> Array:

@@ -42,7 +42,7 @@ def fit_rigid_weighted(fixed_mm: Array, moving_mm: Array, noise_mm2: Array) -> R
 
 def weights_on_ct(fit: Rigid[Vertebra, Anchor], noise_mm2: Array) -> Array:
     """Return the inverses (n, 3, 3) of covariances in the anchor frame, rotated to the CT axes."""
-    return np.asarray(np.linalg.inv(fit.rotation @ noise_mm2 @ fit.rotation.T))
+    return np.asarray(np.linalg.inv(fit.rotation @ noise_mm2 @ fit.rotation.T), dtype=float)
 
 
 def jacobians(arms_mm: Array) -> Array:

@@ -392,7 +392,9 @@ def _covariances(
     noise = _noise(used, settings)
     moved = fit.move_points(used.moving_mm)
     middle = moved.mean(axis=0)
-    alone = np.asarray(np.linalg.inv(normal_matrix(moved - middle, weights_on_ct(fit, scale * noise))))
+    alone = np.asarray(
+        np.linalg.inv(normal_matrix(moved - middle, weights_on_ct(fit, scale * noise))), dtype=float
+    )
     spanned = [alone]
     for index, one in suspects.items():
         own_scale = scale if one is None else one.noise_scale

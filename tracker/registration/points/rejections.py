@@ -68,7 +68,7 @@ def _reject_units(pairs: PointPairs) -> None:
 
 
 def _reject_coincident(points: Array, which: str, labels: tuple[str, ...], min_mm: float) -> None:
-    distances, others = scipy.spatial.cKDTree(points).query(points, k=2)
+    distances, others = scipy.spatial.KDTree(points).query(points, k=2)
     first = int(np.argmin(distances[:, 1]))
     # Of coincident points, either may be returned as the nearest.
     second = int(others[first, 1] if others[first, 1] != first else others[first, 0])

@@ -39,7 +39,7 @@ class ClosestPointQuery:
         pieces, owners = _pieces(self._corners)
         self._owners = owners
         middles = pieces.mean(axis=1)
-        self._tree = scipy.spatial.cKDTree(middles)
+        self._tree = scipy.spatial.KDTree(middles)
         self._reach_mm = float(np.linalg.norm(pieces - middles[:, None], axis=2).max())
         sides = np.cross(pieces[:, 1] - pieces[:, 0], pieces[:, 2] - pieces[:, 0])
         self._piece_areas = 0.5 * np.linalg.norm(sides, axis=1)

@@ -60,7 +60,7 @@ class SweepFit:
 
 def density_weights(points_mm: Array, correlation_length_mm: float) -> Array:
     """Return the inverse (n,) of the number of points within a radius, so that a long rest counts once."""
-    near = scipy.spatial.cKDTree(points_mm).query_ball_point(
+    near = scipy.spatial.KDTree(points_mm).query_ball_point(
         points_mm, correlation_length_mm, return_length=True
     )
     return np.asarray(1.0 / np.asarray(near, dtype=np.float64))

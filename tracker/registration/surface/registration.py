@@ -253,6 +253,6 @@ def _covariances(nearest: ClosestPointQuery, sweep: Sweep, best: SweepFit) -> tu
     variance = max(residual_variance, sweep.min_sd_mm**2)
     stated = np.linalg.inv(by_sweep / variance + by_landmarks) * small_sample_factor(freedom)
     return (
-        covariance_about_origin(fit, middle, np.asarray(expected)),
-        covariance_about_origin(fit, middle, np.asarray(stated)),
+        covariance_about_origin(fit, middle, np.asarray(expected, dtype=float)),
+        covariance_about_origin(fit, middle, np.asarray(stated, dtype=float)),
     )

@@ -23,7 +23,7 @@ def good(image_number: int = 0, at_s: float = 0.0, **changes: object) -> AlarmIn
         armed_screens=1,
         free_disk_mb=50_000.0,
     )
-    return replace(whole, **changes)  # type: ignore[arg-type]  # any field of it
+    return replace(whole, **changes)  # pyrefly: ignore[bad-argument-type]  # any field of it
 
 
 @dataclass(slots=True)

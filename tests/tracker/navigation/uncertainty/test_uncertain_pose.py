@@ -63,7 +63,7 @@ REFERENCE_COVARIANCE = _covariance((0.04, 0.04, 0.3), (0.15, 0.2, 0.05))
 REGISTRATION_COVARIANCE = _covariance((0.3, 0.3, 0.5), (0.4, 0.3, 0.3))
 
 
-def _moved(pose: Rigid, covariance: Array, draws: int) -> list[Rigid]:  # type: ignore[type-arg]  # any frames
+def _moved(pose: Rigid, covariance: Array, draws: int) -> list[Rigid]:  # pyrefly: ignore[implicit-any-type-argument]  # any frames
     root = np.linalg.cholesky(covariance + 1e-16 * np.eye(6))
     return [
         Rigid(

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import numpy.typing as npt
 
 from tracker.geometry import Array
 from tracker.plan import Volume
@@ -75,7 +76,7 @@ SCANS = {
 }
 
 
-def around_the_isthmus(points_mm: Array) -> Array:
+def around_the_isthmus(points_mm: Array) -> npt.NDArray[np.bool_]:
     """Which points (n,) lie within 6 mm of the isthmus along the body and in reach of the pedicle's wall."""
     away = np.abs(points_mm - WAIST_MM)
     return np.asarray((away < [8.0, 6.0, 9.0]).all(axis=1))

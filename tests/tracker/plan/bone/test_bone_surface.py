@@ -1,5 +1,7 @@
 """The extracted surface lies at the bone's boundary for any orientation of the scan."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -187,12 +189,13 @@ def test_a_region_of_soft_tissue_has_no_bone() -> None:
 
 
 def test_invalid_settings_are_rejected() -> None:
-    for settings in (
+    wrong: list[dict[str, Any]] = [
         {"threshold_hu": np.nan},
         {"smoothing_rounds": -1},
         {"max_faces": 3},
         {"max_voxels": 1},
-    ):
+    ]
+    for settings in wrong:
         with pytest.raises(PlanError) as reported:
             BoneSettings(**settings)
         assert reported.value.code == "BONE_SETTINGS_INVALID"
