@@ -18,6 +18,7 @@ from server.api.cases import cases_router
 from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
 from server.api.documentation import DocumentedApi, documentation_router
+from server.api.drillings import drillings_router
 from server.api.errors import install_errors, rejections
 from server.api.gates import gates_router
 from server.api.guide import guide_folder, is_guide, mount_guide
@@ -261,6 +262,7 @@ def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
             comments = RecordingComments(parts.store, parts.recordings)
             exports = RecordingExports(parts.recordings, parts.jobs, parts.store.home)
             app.include_router(recording_review_router(review, comments))
+            app.include_router(drillings_router(review))
             app.include_router(recording_exports_router(exports))
 
 

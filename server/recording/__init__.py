@@ -2,6 +2,7 @@
 
 comments.py  comments of people on instants of recordings
 consent.py   consent of the patient
+drilling_course.py  course of each drilling, for the report
 cut.py       a part of a recording as a new recording
 export.py    export as CSV
 exports.py   videos and parts of recordings, made by jobs

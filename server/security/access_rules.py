@@ -65,6 +65,7 @@ GET     /api/rehearsal
 GET     /api/rehearsal/ct
 GET     /api/recordings
 GET     /api/recordings/state
+GET     /api/recordings/drillings
 GET     /api/recordings/{name}/file
 GET     /api/recordings/{name}/export/{table}.csv
 GET     /api/recordings/{name}/timeline

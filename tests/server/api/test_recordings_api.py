@@ -390,3 +390,36 @@ def test_the_list_opens_no_file_a_second_time(door: Door, monkeypatch: pytest.Mo
     with (door.store.home.cases / case.id / "recordings" / name).open("ab") as file:
         file.write(b"more")
     assert door.ask("GET", "", 200)["recordings"][0]["duration_s"] == 7.0
+
+
+def test_the_course_of_each_drilling_comes_from_all_recordings_of_the_case(door: Door) -> None:
+    door.open_a_case()
+    assert door.ask("GET", "/drillings", 200) == {"drillings": [], "job": None, "unread": [], "running": 0}
+    name = door.put_drilling()
+    case = door.store.get_open_case()
+    assert case is not None
+    damaged = door.store.home.cases / case.id / "recordings" / "20260102T000000Z-0000.mcap"
+    damaged.write_bytes(b"not a recording")
+    while (found := door.ask("GET", "/drillings", 200))["job"] is not None:
+        door.jobs.wait_for(found["job"]["id"], timeout_s=60.0)
+    assert found["unread"] == [damaged.name]
+    (drilling,) = found["drillings"]
+    nearest, deepest = drilling.pop("nearest"), drilling.pop("deepest")
+    assert nearest["wall"]["value"] < 0.0 < nearest["wall"]["error_95"]
+    assert deepest["depth"] == {"value": 29.0, "error_95": deepest["depth"]["error_95"]}
+    assert drilling == {
+        "recording": name,
+        "is_whole": True,
+        "began_at": "2026-01-01T00:01:40.000Z",
+        "channel": "L3 left",
+        "tool": "drill",
+        "images": DRILLED.count("path") + DRILLED.count("near") + DRILLED.count("breach"),
+        "from_s": 0.0,
+        "to_s": pytest.approx((len(DRILLED) - 1) / 10.0),
+        "at_entry": drilling["at_entry"],
+        "against": "bone",
+        "grade": "B",
+        "worst_grade": "B",
+        "missing_s": 0.9,
+        "longest_missing_s": 0.9,
+    }
