@@ -147,6 +147,8 @@ POST    /api/recordings/start
 POST    /api/recordings/stop
 POST    /api/recordings/{name}/video
 POST    /api/recordings/{name}/cut
+POST    /api/recordings/{name}/tables
+POST    /api/recordings/{name}/sequence
 PUT     /api/recordings/{name}/protection
 DELETE  /api/recordings/{name}
 POST    /api/cases

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import zipfile
 from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
@@ -250,6 +251,24 @@ def test_a_video_is_made_by_a_job_and_downloaded(door: Door) -> None:
     again = made(door, name, "video", {})["result"]["file"]
     assert again != result["file"]
     assert door.ask("GET", f"/{name}/exports/{result['file']}", 404)["code"] == "EXPORT_UNKNOWN"
+
+
+def test_tables_and_a_sequence_are_made_by_jobs_and_downloaded(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    tables = made(door, name, "tables", None)["result"]
+    with zipfile.ZipFile(io.BytesIO(downloaded(door, name, tables["file"]))) as archive:
+        assert len(archive.namelist()) == 3
+    sequence = made(door, name, "sequence", {"from_s": 1.0, "to_s": 1.2})["result"]
+    assert (sequence["images"], sequence["file"]) == (3, f"{name[:-5]}-1.0-1.2s.igs.mha")
+    assert downloaded(door, name, sequence["file"]).startswith(b"ObjectType = Image\n")
+    # One file of each kind.
+    assert {one["file"] for one in door.ask("GET", f"/{name}/exports", 200)["files"]} == {
+        tables["file"],
+        sequence["file"],
+    }
+    empty = made(door, name, "sequence", {"from_s": 90.0, "to_s": 91.0})
+    assert empty["problem"]["code"] == "SEQUENCE_EMPTY"
 
 
 def test_a_piece_is_made_by_a_job_and_deleted_with_its_recording(door: Door) -> None:
