@@ -1,5 +1,6 @@
 """The sequence of a recording, read by SimpleITK: pixels, poses and their status."""
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -11,8 +12,9 @@ import SimpleITK
 from server.errors import RecordingError
 from server.recording.sequence_metafile import SequenceSummary, _frames, write_sequence
 from server.recording.timeline import make_index
-from server.recording_file import RecordingReader, Topic
+from server.recording_file import ImagePacker, RecordingReader, Topic
 from tests.server.recording.reviewed import DRILLED, HEIGHT, WIDTH, drawn, write_drilling
+from tests.server.recording_file.written import made_writer
 
 FIRST, LAST = 8, 19
 
@@ -97,6 +99,48 @@ def test_an_image_that_cannot_be_decoded_is_black_and_invalid(drilling: Path, tm
     statuses = [fields[f"Seq_Frame{place:04d}_ImageStatus"] for place in range(summary.images)]
     assert statuses == ["INVALID" if place == 3 else "OK" for place in range(summary.images)]
     assert not SimpleITK.GetArrayFromImage(image)[3].any()
+
+
+def painted(path: Path, *images: np.ndarray) -> Path:
+    """Write a recording of these images (h, w, 3), BGR, with results that know nothing."""
+    writer = made_writer(path)
+    writer.register(Topic.SNAPSHOT)
+    absent = {"kind": "absent", "reason": "NO_PLAN"}
+    for number, image in enumerate(images):
+        snapshot: dict[str, object] = {
+            "image_number": number,
+            "withheld": None,
+            "tools": [],
+            "markers": [],
+            "vertebra": absent,
+        }
+        writer.add_image(ImagePacker().pack(image), number=number, at_s=float(number))
+        writer.add_json(Topic.SNAPSHOT, float(number), json.dumps(snapshot), sequence=number)
+    writer.close()
+    return path
+
+
+def test_red_stays_red_and_grey_images_have_one_channel(tmp_path: Path) -> None:
+    grey = np.arange(24, dtype=np.uint8).reshape(4, 6, 1).repeat(3, axis=2)
+    red = grey * np.array([0, 0, 5], dtype=np.uint8)
+    target = tmp_path / "case.igs.mha"
+    write_sequence(painted(tmp_path / "red.mcap", grey, red), target)
+    found = SimpleITK.GetArrayFromImage(SimpleITK.ReadImage(str(target)))
+    np.testing.assert_array_equal(found[0], grey)
+    np.testing.assert_array_equal(found[1][..., 0], red[..., 2])
+    assert not found[1][..., 1:].any()
+    write_sequence(painted(tmp_path / "grey.mcap", grey, grey), target)
+    np.testing.assert_array_equal(
+        SimpleITK.GetArrayFromImage(SimpleITK.ReadImage(str(target))), [grey[..., 0]] * 2
+    )
+
+
+def test_images_of_two_sizes_are_rejected(tmp_path: Path) -> None:
+    sizes = painted(tmp_path / "a.mcap", np.zeros((4, 6, 3), np.uint8), np.zeros((6, 4, 3), np.uint8))
+    with pytest.raises(RecordingError, match="2 sizes \\(4x6, 6x4\\)") as found:
+        write_sequence(sizes, tmp_path / "case.igs.mha")
+    assert found.value.code == "SEQUENCE_SIZES_DIFFER"
+    assert write_sequence(sizes, tmp_path / "case.igs.mha", to_s=0.5).images == 1
 
 
 @pytest.mark.parametrize(
