@@ -16,7 +16,7 @@ from server.api.body_limits import BodyLimitMiddleware
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
-from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
+from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router
 from server.api.documentation import DocumentedApi, documentation_router
 from server.api.drillings import drillings_router
 from server.api.errors import install_errors, rejections
@@ -50,6 +50,7 @@ from server.api.sweep import sweep_router
 from server.api.tools import tools_router
 from server.capture.address import source_from_text
 from server.config import Config
+from server.installation import product_version
 from server.jobs import Jobs
 from server.live import LiveHub, Problem
 from server.loop.rehearsal_control import RehearsalControl

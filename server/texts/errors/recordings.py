@@ -5,6 +5,24 @@ from collections.abc import Mapping
 from server.texts.language import Text
 
 RECORDINGS: Mapping[str, tuple[Text, ...]] = {
+    "CLUSTER_LIBRARY_MISSING": (
+        {
+            "en": "a cluster is reached with distributed (Dask), which is not installed",
+            "de": "ein Cluster wird mit distributed (Dask) erreicht, das nicht installiert ist",
+        },
+    ),
+    "CLUSTER_UNREACHABLE": (
+        {
+            "en": "the scheduler {scheduler} cannot be reached: {reason}",
+            "de": "der Scheduler {scheduler} ist nicht erreichbar: {reason}",
+        },
+    ),
+    "NO_RECORDINGS": (
+        {
+            "en": "{folder} and its subfolders have no recording (.mcap)",
+            "de": "{folder} und seine Unterordner enthalten keine Aufnahme (.mcap)",
+        },
+    ),
     "PARQUET_WRITER_MISSING": (
         {
             "en": "Parquet files are written with pyarrow, which is not installed",
@@ -111,6 +129,12 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the table {name} cannot be written: {reason}",
             "de": "die Tabelle {name} kann nicht geschrieben werden: {reason}",
+        },
+    ),
+    "TABLE_FILE_UNUSABLE": (
+        {
+            "en": "the table file {table} cannot be used: {reason}",
+            "de": "die Tabellendatei {table} ist nicht verwendbar: {reason}",
         },
     ),
 }

@@ -76,4 +76,17 @@ RECORDINGS: tuple[Text, ...] = (
         "en": "Review the recording with the version of Coaxial that recorded it.",
         "de": "Die Aufnahme mit der Version von Coaxial durchsehen, mit der sie entstand.",
     },
+    {
+        "en": 'Install it into the environment of Coaxial: pip install "coaxial[cluster]".',
+        "de": 'In der Umgebung von Coaxial installieren: pip install "coaxial[cluster]".',
+    },
+    {
+        "en": "Check its address, as in tcp://host:8786, and that it runs.",
+        "de": "Prüfen, ob die Adresse stimmt, etwa tcp://host:8786, und ob er läuft.",
+    },
+    {"en": "Give a folder with recordings.", "de": "Einen Ordner mit Aufnahmen angeben."},
+    {
+        "en": "Give a file that can be written, or none.",
+        "de": "Eine Datei angeben, die beschrieben werden kann, oder keine.",
+    },
 )
