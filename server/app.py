@@ -16,8 +16,9 @@ from server.api.body_limits import BodyLimitMiddleware
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
-from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
+from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router
 from server.api.documentation import DocumentedApi, documentation_router
+from server.api.drillings import drillings_router
 from server.api.errors import install_errors, rejections
 from server.api.gates import gates_router
 from server.api.guide import guide_folder, is_guide, mount_guide
@@ -49,6 +50,7 @@ from server.api.sweep import sweep_router
 from server.api.tools import tools_router
 from server.capture.address import source_from_text
 from server.config import Config
+from server.installation import product_version
 from server.jobs import Jobs
 from server.live import LiveHub, Problem
 from server.loop.rehearsal_control import RehearsalControl
@@ -261,6 +263,7 @@ def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
             comments = RecordingComments(parts.store, parts.recordings)
             exports = RecordingExports(parts.recordings, parts.jobs, parts.store.home)
             app.include_router(recording_review_router(review, comments))
+            app.include_router(drillings_router(review))
             app.include_router(recording_exports_router(exports))
 
 

@@ -4,7 +4,7 @@ import hashlib
 import os
 import sys
 from collections.abc import MutableMapping, Sequence
-from importlib.metadata import PackageNotFoundError, distribution
+from importlib.metadata import PackageNotFoundError, distribution, version
 from importlib.resources import files
 from pathlib import Path
 
@@ -17,6 +17,14 @@ PACKAGE = Path(str(files("server")))
 CODE_CACHE_VARIABLE = "NUMBA_CACHE_DIR"
 UNIT_EXECUTABLE = "/opt/coaxial/bin/coaxial"
 SAFE_PATH_VARIABLE = "PYTHONSAFEPATH"
+
+
+def product_version() -> str:
+    """Return the installed version; "unknown" if the package is not installed."""
+    try:
+        return version(DISTRIBUTION)
+    except PackageNotFoundError:
+        return "unknown"
 
 
 def file_candidates(packaged: str, in_checkout: str) -> tuple[Path, Path]:

@@ -11,7 +11,7 @@ from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.recording.consent import Consent, ConsentState
 from server.recording.export import Table, csv_lines
-from server.recording.exports import VIDEO_SUFFIX, RecordingExports
+from server.recording.exports import RecordingExports
 from server.recording.service import RecordingService, StoredRecording
 from server.security.audit import note
 from server.security.person import person_of
@@ -19,9 +19,9 @@ from server.stream.message import Message
 from server.stream.messages import ProblemMessage, problem_message
 from server.texts import Language
 
-MCAP = "application/octet-stream"
-MP4 = "video/mp4"
+BYTES = "application/octet-stream"
 CSV = "text/csv"
+KINDS = {".mp4": "video/mp4", ".zip": "application/zip"}
 
 
 class ConsentMessage(Message):
@@ -96,7 +96,7 @@ class CutRequest(Message):
 
 
 class ExportMessage(Message):
-    """A video or a part of a recording."""
+    """A file made from a recording."""
 
     file: str
     """File name for the download."""
@@ -164,7 +164,7 @@ def recordings_router(service: RecordingService) -> APIRouter:
     @router.get("/{name}/file", response_class=FileResponse, responses=rejections(404, 409, 503))
     def download(name: str) -> FileResponse:
         """Return the file of a recording (MCAP). It contains images of the operation and names of staff."""
-        return FileResponse(service.path(name), media_type=MCAP, filename=name)
+        return FileResponse(service.path(name), media_type=BYTES, filename=name)
 
     @router.get(
         "/{name}/export/{table}.csv",
@@ -214,9 +214,27 @@ def recording_exports_router(exports: RecordingExports) -> APIRouter:
         """
         return job_message(exports.start_cut(name, requested.from_s, requested.to_s))
 
+    @router.post("/tables", status_code=202, responses=rejections(404, 409, 422, 503, 507))
+    def tables(name: str) -> JobMessage:
+        """Write the tables of a recording as Parquet, in one zip archive, in a job.
+
+        They have the columns of the CSV, with types and units. Its result contains `file` for the download
+        and the number of `rows`. Requires pyarrow.
+        """
+        return job_message(exports.start_tables(name))
+
+    @router.post("/sequence", status_code=202, responses=rejections(404, 409, 422, 503, 507))
+    def sequence(name: str, requested: CutRequest) -> JobMessage:
+        """Write images and poses of a part of a recording as a sequence metafile (.igs.mha), in a job.
+
+        Its result contains `file` for the download, `images`, `invalid_images` (not decodable, black),
+        `from_s`, `to_s`, and `frames`: the coordinate frame of each tool, marker and vertebra.
+        """
+        return job_message(exports.start_sequence(name, requested.from_s, requested.to_s))
+
     @router.get("/exports", responses=rejections(404, 409, 503))
     def made(name: str) -> ExportsMessage:
-        """Return the video and the part made from a recording, and the newest job for it."""
+        """Return the files made from a recording, and the newest job for it."""
         found = exports.exports(name)
         return ExportsMessage(
             files=[ExportMessage.model_validate(one, from_attributes=True) for one in found.files],
@@ -227,8 +245,7 @@ def recording_exports_router(exports: RecordingExports) -> APIRouter:
     def download(name: str, file: str) -> FileResponse:
         """Return an exported file. It contains images of the operation."""
         path = exports.path(name, file)
-        kind = MP4 if path.suffix == VIDEO_SUFFIX else MCAP
-        return FileResponse(path, media_type=kind, filename=file)
+        return FileResponse(path, media_type=KINDS.get(path.suffix, BYTES), filename=file)
 
     return router
 

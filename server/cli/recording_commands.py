@@ -1,5 +1,6 @@
-"""`coaxial recording`: export a recording as CSV or video, and cut out a part of it."""
+"""`coaxial recording`: export a recording as tables, video or sequence, and cut out a part of it."""
 
+from math import inf
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -23,9 +24,13 @@ def export(
     to: Annotated[
         Path | None,
         typer.Option(
-            "--to", help="Folder for the CSV files; created if missing.", metavar="DIR", file_okay=False
+            "--to", help="Folder for the tables; created if missing.", metavar="DIR", file_okay=False
         ),
     ] = None,
+    format_: Annotated[
+        Literal["csv", "parquet"],
+        typer.Option("--format", help="Format of the tables; parquet needs pyarrow."),
+    ] = "csv",
     video: Annotated[
         Path | None,
         typer.Option(
@@ -35,20 +40,42 @@ def export(
     language: Annotated[
         Literal["en", "de"], typer.Option("--language", help="Language of the texts in the video.")
     ] = "en",
+    sequence: Annotated[
+        Path | None,
+        typer.Option(
+            "--sequence",
+            help="Images with their poses (.igs.mha) for 3D Slicer and Plus.",
+            metavar="FILE",
+            dir_okay=False,
+        ),
+    ] = None,
+    from_s: Annotated[
+        float, typer.Option("--from", min=0.0, help="Start of the sequence, in s after the first image.")
+    ] = 0.0,
+    until_s: Annotated[
+        float | None,
+        typer.Option("--until", min=0.0, help="End of the sequence, in s after the first image."),
+    ] = None,
 ) -> None:
-    """Write poses.csv, deviations.csv and alarms.csv of a recording, or a video of it.
+    """Write the tables poses, deviations and alarms of a recording, a video of it, or its images with poses.
 
     Column names include the units. The video shows each image at its capture time with the overlay of its
-    results, and is marked as a recording.
+    results, and is marked as a recording. The sequence is not compressed; an image that cannot be decoded and
+    an absent pose have the status INVALID.
     """
-    if to is None and video is None:
-        raise typer.BadParameter("Give a folder for CSV (--to), a video file (--video), or both.")
-    if video is not None:
-        _reject_same(file, video)
+    if to is None and video is None and sequence is None:
+        raise typer.BadParameter(
+            "Give a folder for tables (--to), a video (--video) or a sequence (--sequence)."
+        )
+    for target in (video, sequence):
+        if target is not None:
+            _reject_same(file, target)
     if to is not None:
-        _write_tables(file, to)
+        _write_tables(file, to, format_)
     if video is not None:
         _write_video(file, video, language)
+    if sequence is not None:
+        _write_sequence(file, sequence, from_s, until_s)
 
 
 @recording_app.command()
@@ -88,28 +115,42 @@ def _reject_same(file: Path, target: Path) -> None:
         raise typer.BadParameter("The output is the recording itself.")
 
 
-def _write_tables(file: Path, folder: Path) -> None:
-    from server.disk import named_when_complete  # noqa: PLC0415  loaded when needed
-    from server.errors import RecordingError  # noqa: PLC0415
-    from server.recording.export import Table, csv_lines  # noqa: PLC0415
+def _write_tables(file: Path, folder: Path, format_: Literal["csv", "parquet"]) -> None:
+    from server.recording.export import Table, table_not_written, write_csv  # noqa: PLC0415  loaded when needed
+    from server.recording.parquet import write_parquet  # noqa: PLC0415
+    from server.recording_file import RecordingReader  # noqa: PLC0415
 
-    tables = {table: csv_lines(file, table) for table in Table}
-    for table, lines in tables.items():
-        target = folder / f"{table}.csv"
+    # No folder is created for a file that is not a recording.
+    RecordingReader(file).close()
+    write = write_csv if format_ == "csv" else write_parquet
+    for table in Table:
+        target = folder / f"{table}.{format_}"
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            with (
-                named_when_complete(target) as unfinished,
-                unfinished.open("w", encoding="utf-8", newline="") as written,
-            ):
-                written.writelines(lines)
         except OSError as error:
-            raise RecordingError(
-                "TABLE_NOT_WRITTEN",
-                f"{target} cannot be written: {(error.strerror or str(error)).lower()}",
-                "Check that the folder is writable and its disk has free space, then export again.",
-            ) from error
+            raise table_not_written(target, error) from error
+        write(file, table, target)
         typer.echo(str(target))
+
+
+def _write_sequence(file: Path, target: Path, from_s: float, until_s: float | None) -> None:
+    from server.cli.progress import shown_ratio  # noqa: PLC0415  loaded when needed
+    from server.recording.sequence_metafile import write_sequence  # noqa: PLC0415
+
+    with shown_ratio("writing the sequence") as report:
+        summary = write_sequence(
+            file,
+            target,
+            from_s=from_s,
+            to_s=inf if until_s is None else until_s,
+            report=lambda ratio, _: report(ratio),
+        )
+    typer.echo(str(target))
+    typer.echo(f"{summary.images} images, from {summary.from_s:.2f} to {summary.to_s:.2f} s")
+    if summary.invalid_images:
+        typer.echo(f"{summary.invalid_images} images cannot be decoded; they are black and INVALID")
+    for name, frame in summary.frames.items():
+        typer.echo(f"{frame}ToTracker: {name.strip()}")
 
 
 def _write_video(file: Path, target: Path, language: Literal["en", "de"]) -> None:

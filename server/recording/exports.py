@@ -1,6 +1,6 @@
-"""`RecordingExports`: videos and parts of recordings, made by jobs and stored as long as the recording.
+"""`RecordingExports`: videos, tables, sequences and parts of recordings, made by jobs.
 
-A new video replaces the previous video of a recording, and a new part the previous part.
+They are stored as long as the recording. A new file replaces the previous one of its kind.
 """
 
 import threading
@@ -11,6 +11,9 @@ from typing import Any
 
 from server.jobs import Job, Jobs
 from server.recording.cut import cut_recording
+from server.recording.parquet import write_parquet_archive
+from server.recording.sequence_metafile import SUFFIX as SEQUENCE_SUFFIX
+from server.recording.sequence_metafile import write_sequence
 from server.recording.service import RecordingService, exports_folder
 from server.recording.timeline import Report
 from server.recording.video import write_video
@@ -19,12 +22,12 @@ from server.store import Home, NotFound
 from server.store.home import PRIVATE
 from server.texts import Language
 
-VIDEO_SUFFIX = ".mp4"
+VIDEO_SUFFIX, TABLES_SUFFIX = ".mp4", "-tables.zip"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExportedFile:
-    """A video or a part of a recording."""
+    """A file made from a recording."""
 
     file: str
     size_bytes: int
@@ -78,6 +81,25 @@ class RecordingExports:
         file = f"{Path(name).stem}-{from_s:.1f}-{to_s:.1f}s{SUFFIX}"
         return self._start("piece of a recording", make_piece, name, file, {"from_s": from_s, "to_s": to_s})
 
+    def start_tables(self, name: str) -> Job:
+        """Start writing the tables of a recording as Parquet, in one zip archive.
+
+        Raises the same errors as `start_video`.
+        """
+        return self._start(
+            "tables of a recording", make_tables, name, f"{Path(name).stem}{TABLES_SUFFIX}", {}
+        )
+
+    def start_sequence(self, name: str, from_s: float, to_s: float) -> Job:
+        """Start writing the images and poses between two times since the first image (.igs.mha).
+
+        Raises the same errors as `start_video`.
+        """
+        file = f"{Path(name).stem}-{from_s:.1f}-{to_s:.1f}s{SEQUENCE_SUFFIX}"
+        return self._start(
+            "sequence of a recording", make_sequence, name, file, {"from_s": from_s, "to_s": to_s}
+        )
+
     def exports(self, name: str) -> Exports:
         """Return the exports of a recording, complete and in progress.
 
@@ -109,7 +131,7 @@ class RecordingExports:
             raise NotFound(
                 "EXPORT_UNKNOWN",
                 f"{name} has no export of this name",
-                "Export it again; a new video or part replaces the previous one.",
+                "Export it again; a new file replaces the previous one of its kind.",
                 {"name": name},
             )
         return folder / file
@@ -139,6 +161,19 @@ class RecordingExports:
 def make_video(report: Report, *, recording: str, folder: str, file: str, language: Language) -> object:
     """Job: write the video."""
     return asdict(write_video(Path(recording), Path(folder) / file, language=language, report=report))
+
+
+def make_tables(report: Report, *, recording: str, folder: str, file: str) -> object:
+    """Job: write the tables."""
+    return {"rows": write_parquet_archive(Path(recording), Path(folder) / file, report)}
+
+
+def make_sequence(
+    report: Report, *, recording: str, folder: str, file: str, from_s: float, to_s: float
+) -> object:
+    """Job: write the sequence."""
+    target = Path(folder) / file
+    return asdict(write_sequence(Path(recording), target, from_s=from_s, to_s=to_s, report=report))
 
 
 def make_piece(

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from server.errors import RecordingError
-from server.jobs import Job, Jobs
+from server.jobs import Job, Jobs, JobState
 from server.overlay import encode_jpeg
+from server.recording.drilling_course import DrillingCourse
 from server.recording.service import RecordingService
 from server.recording.timeline import (
     FIGURES,
@@ -16,9 +17,11 @@ from server.recording.timeline import (
     Floats,
     Integers,
     RecordingIndex,
+    RecordingSummary,
     index_path,
     store_index,
     stored_index,
+    stored_summary,
 )
 from server.recording_file import PackedImage, unpacked
 from server.recording_file.locations import read_content
@@ -62,6 +65,38 @@ class RecordedInstant:
     alarms: bytes
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordedDrilling:
+    """Course of a drilling, with its recording.
+
+    Attributes:
+        recording: Name of the recording.
+        summary: Its time, and whether it is complete.
+        course: The course.
+    """
+
+    recording: str
+    summary: RecordingSummary
+    course: DrillingCourse
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drillings:
+    """Drillings in the recordings of a case.
+
+    Attributes:
+        courses: Their courses, oldest first.
+        unread: Recordings that could not be read.
+        running: Number of recordings that are being written, which are not read.
+        job: The job that reads the next recording; None if all are read.
+    """
+
+    courses: tuple[RecordedDrilling, ...]
+    unread: tuple[str, ...]
+    running: int
+    job: Job | None
+
+
 class RecordingReview:
     """Reads recordings of the open case. Thread-safe; its methods wait for the disk.
 
@@ -90,12 +125,41 @@ class RecordingReview:
             found = self._stored(path)
             if found is not None:
                 return found
-            known = {one.id: one for one in self._jobs.list()}
-            job = known.get(self._started.get(path, ""))
-            if job is None or job.state.is_finished:
-                job = self._jobs.start("index of a recording", store_index, {"recording": str(path)})
-                self._started[path] = job.id
-            return job
+            job = self._job(path)
+            return self._start(path) if job is None or job.state.is_finished else job
+
+    def drillings(self) -> Drillings:
+        """Return the course of each drilling in the recordings of the open case.
+
+        Recordings without an index are read one after the other: `job` reads the next one.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN.
+        """
+        courses, unread, running, job = [], [], 0, None
+        for one in self._recordings.list():
+            if one.is_running:
+                running += 1
+                continue
+            path = self._recordings.path(one.name)
+            with self._lock:
+                summary = stored_summary(path)
+                started = self._job(path)
+                if summary is None and job is None and (started is None or started.state is JobState.DONE):
+                    started = self._start(path)
+            if summary is not None:
+                courses += [
+                    RecordedDrilling(recording=one.name, summary=summary, course=each)
+                    for each in summary.courses
+                ]
+            elif started is None:
+                # Its turn comes later.
+                continue
+            elif not started.state.is_finished:
+                job = started
+            elif started.state is not JobState.DONE:
+                unread.append(one.name)
+        return Drillings(courses=tuple(courses), unread=tuple(unread), running=running, job=job)
 
     def jpeg(self, name: str, number: int) -> bytes:
         """Return an image of a recording as JPEG, `number` from 0; the original bytes if it is a JPEG.
@@ -131,6 +195,16 @@ class RecordingReview:
             snapshot=_content(path, index.snapshots[number]),
             alarms=_content(path, index.alarms[number]),
         )
+
+    def _job(self, path: Path) -> Job | None:
+        """Return the last job that read this recording."""
+        identity = self._started.get(path)
+        return next((one for one in self._jobs.list() if one.id == identity), None)
+
+    def _start(self, path: Path) -> Job:
+        job = self._jobs.start("index of a recording", store_index, {"recording": str(path)})
+        self._started[path] = job.id
+        return job
 
     def _opened(self, name: str, number: int) -> tuple[Path, RecordingIndex]:
         index = self.index(name)

@@ -6,22 +6,24 @@ A job computes it once and stores it beside the recording, so that any instant i
 import json
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields
 from itertools import pairwise
 from pathlib import Path
 from typing import IO, Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+from pydantic import TypeAdapter
 
 from server.alarms.evaluation import AlarmCall
+from server.recording.drilling_course import DrillingCourse, DrillingCourses
 from server.recording_file import Packing, Topic
 from server.recording_file.locations import Location, MessageLocations, read_content
 from tracker.navigation import Status
 from tracker.navigation.alarms import AlarmState, Change
 
 # Incremented by each change of the format; an index of another version is computed again.
-VERSION = 2
+VERSION = 3
 SUFFIX = ".index.npz"
 FIGURES = ("entry", "angle", "depth", "wall")
 STATUSES = tuple(Status)
@@ -65,6 +67,7 @@ class RecordingIndex:
         begin_unix_s: Time of the first image.
         is_whole: Whether the file is complete.
         events: Events in the order of their start.
+        courses: Course of each drilling.
         at_s: (n,) time since the first image.
         images, snapshots, alarms: (n, 2) offset and length; length 0 if absent.
         packings: (n,) index in `PACKINGS`.
@@ -76,6 +79,7 @@ class RecordingIndex:
     begin_unix_s: float
     is_whole: bool
     events: tuple[TimelineEvent, ...]
+    courses: tuple[DrillingCourse, ...]
     at_s: Floats
     images: Integers
     snapshots: Integers
@@ -90,7 +94,23 @@ class RecordingIndex:
         return len(self.at_s)
 
 
-COLUMNS = tuple(one.name for one in fields(RecordingIndex))[3:]
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordingSummary:
+    """What the report needs of a recording.
+
+    Attributes:
+        begin_unix_s: Time of the first image.
+        is_whole: Whether the file is complete.
+        courses: Course of each drilling.
+    """
+
+    begin_unix_s: float
+    is_whole: bool
+    courses: tuple[DrillingCourse, ...]
+
+
+COURSE = TypeAdapter(DrillingCourse)
+COLUMNS = tuple(one.name for one in fields(RecordingIndex))[4:]
 
 
 def index_path(recording: Path) -> Path:
@@ -108,6 +128,7 @@ def store_index(report: Report, *, recording: str) -> dict[str, int]:
         "begin_unix_s": index.begin_unix_s,
         "is_whole": index.is_whole,
         "events": [{one.name: getattr(event, one.name) for one in fields(event)} for event in index.events],
+        "courses": [asdict(course) for course in index.courses],
     }
     target = index_path(path)
     unfinished = target.with_name(f"{target.name}.{os.getpid()}")
@@ -125,17 +146,42 @@ def stored_index(recording: Path) -> RecordingIndex | None:
     """Return the stored index of a recording; None without an index of this file and version."""
     try:
         with np.load(index_path(recording), allow_pickle=False) as stored:
-            about = json.loads(stored["about"].tobytes())
-            if about["version"] != VERSION or about["file"] != _fingerprint(recording):
+            about = _current(stored["about"], recording)
+            if about is None:
                 return None
             return RecordingIndex(
                 begin_unix_s=about["begin_unix_s"],
                 is_whole=about["is_whole"],
                 events=tuple(TimelineEvent(**one) for one in about["events"]),
+                courses=_courses(about),
                 **{name: stored[name] for name in COLUMNS},
             )
     except (OSError, ValueError, KeyError, TypeError, EOFError):
         return None
+
+
+def stored_summary(recording: Path) -> RecordingSummary | None:
+    """Return the drillings of the stored index, without reading its columns; None as for `stored_index`."""
+    try:
+        with np.load(index_path(recording), allow_pickle=False) as stored:
+            about = _current(stored["about"], recording)
+        if about is None:
+            return None
+        return RecordingSummary(
+            begin_unix_s=about["begin_unix_s"], is_whole=about["is_whole"], courses=_courses(about)
+        )
+    except (OSError, ValueError, KeyError, TypeError, EOFError):
+        return None
+
+
+def _current(about: npt.NDArray[np.uint8], recording: Path) -> Json | None:
+    """Return the description of a stored index; None if it is of another version or file."""
+    found = json.loads(about.tobytes())
+    return found if found["version"] == VERSION and found["file"] == _fingerprint(recording) else None
+
+
+def _courses(about: Json) -> tuple[DrillingCourse, ...]:
+    return tuple(COURSE.validate_python(one) for one in about["courses"])
 
 
 def make_index(path: Path, report: Report = lambda _ratio, _doing: None) -> RecordingIndex:
@@ -186,6 +232,7 @@ class _Rows:
     limits: list[list[float]] = field(default_factory=list)
     statuses: list[list[int]] = field(default_factory=list)
     reasons: list[str] = field(default_factory=list)
+    courses: DrillingCourses = field(default_factory=DrillingCourses)
 
     def add(self, snapshot: Location, content: Json) -> None:
         image = self.image
@@ -195,6 +242,7 @@ class _Rows:
         assessment = _displayed_assessment(content)
         figures = assessment.get("figures", {})
         self.pairs.append((image, snapshot))
+        self.courses.add(image.unix_s, content)
         self.reasons.append(assessment.get("reason", ""))
         self.values.append([_number(figures.get(name, {}).get("value")) for name in FIGURES])
         self.limits.append([_number(figures.get(name, {}).get("limit")) for name in FIGURES])
@@ -211,6 +259,7 @@ class _Rows:
             begin_unix_s=begin_s,
             is_whole=is_whole,
             events=tuple(sorted(found, key=lambda event: event.from_s)),
+            courses=self.courses.courses(),
             at_s=at_s,
             images=_places(image for image, _ in self.pairs),
             snapshots=_places(snapshot for _, snapshot in self.pairs),

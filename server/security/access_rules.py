@@ -65,6 +65,7 @@ GET     /api/rehearsal
 GET     /api/rehearsal/ct
 GET     /api/recordings
 GET     /api/recordings/state
+GET     /api/recordings/drillings
 GET     /api/recordings/{name}/file
 GET     /api/recordings/{name}/export/{table}.csv
 GET     /api/recordings/{name}/timeline
@@ -146,6 +147,8 @@ POST    /api/recordings/start
 POST    /api/recordings/stop
 POST    /api/recordings/{name}/video
 POST    /api/recordings/{name}/cut
+POST    /api/recordings/{name}/tables
+POST    /api/recordings/{name}/sequence
 PUT     /api/recordings/{name}/protection
 DELETE  /api/recordings/{name}
 POST    /api/cases

@@ -162,4 +162,11 @@ def test_the_licence_in_a_row_is_the_one_of_the_package(bill: dict[str, Any]) ->
     assert {name: cells[1] for name, cells in rows.items() if name in stated} == {
         name: licence for name, licence in stated.items() if name in rows
     }
-    assert rows.keys() - stated.keys() == {"pypylon", "harvesters", "av", *GENERATORS}
+    assert rows.keys() - stated.keys() == {
+        "pypylon",
+        "harvesters",
+        "av",
+        "pyarrow",
+        "distributed",
+        *GENERATORS,
+    }

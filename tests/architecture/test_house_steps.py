@@ -218,7 +218,15 @@ def stands_ready(folder: Path, fails: str) -> None:
 
 @pytest.mark.parametrize(
     "fails",
-    ["server.loop.compiling", "ruff check", "lint-imports", "pyrefly", "--silent test", "run-tests", "nothing"],
+    [
+        "server.loop.compiling",
+        "ruff check",
+        "lint-imports",
+        "pyrefly",
+        "--silent test",
+        "run-tests",
+        "nothing",
+    ],
 )
 def test_the_gate_fails_with_any_of_its_parts_and_tests_only_what_was_compiled_and_checked(
     tmp_path: Path, fails: str

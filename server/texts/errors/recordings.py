@@ -5,6 +5,51 @@ from collections.abc import Mapping
 from server.texts.language import Text
 
 RECORDINGS: Mapping[str, tuple[Text, ...]] = {
+    "CLUSTER_LIBRARY_MISSING": (
+        {
+            "en": "a cluster is reached with distributed (Dask), which is not installed",
+            "de": "ein Cluster wird mit distributed (Dask) erreicht, das nicht installiert ist",
+        },
+    ),
+    "CLUSTER_UNREACHABLE": (
+        {
+            "en": "the scheduler {scheduler} cannot be reached: {reason}",
+            "de": "der Scheduler {scheduler} ist nicht erreichbar: {reason}",
+        },
+    ),
+    "NO_RECORDINGS": (
+        {
+            "en": "{folder} and its subfolders have no recording (.mcap)",
+            "de": "{folder} und seine Unterordner enthalten keine Aufnahme (.mcap)",
+        },
+    ),
+    "PARQUET_WRITER_MISSING": (
+        {
+            "en": "Parquet files are written with pyarrow, which is not installed",
+            "de": "Parquet-Dateien werden mit pyarrow geschrieben, das nicht installiert ist",
+        },
+    ),
+    "SEQUENCE_EMPTY": (
+        {"en": "{name} has no image in this period", "de": "{name} hat in diesem Zeitraum kein Bild"},
+    ),
+    "SEQUENCE_NOT_WRITTEN": (
+        {
+            "en": "the sequence {name} cannot be written: {reason}",
+            "de": "die Sequenz {name} kann nicht geschrieben werden: {reason}",
+        },
+    ),
+    "SEQUENCE_SIZES_DIFFER": (
+        {
+            "en": "the images in this period have {count} sizes ({sizes}), a sequence has one",
+            "de": "die Bilder in diesem Zeitraum haben {count} Größen ({sizes}), eine Sequenz hat nur eine",
+        },
+    ),
+    "SEQUENCE_TOO_LARGE": (
+        {
+            "en": "the uncompressed images need {needed_gb:.1f} GB, and {free_gb:.1f} GB are free",
+            "de": "die unkomprimierten Bilder brauchen {needed_gb:.1f} GB, frei sind {free_gb:.1f} GB",
+        },
+    ),
     "EXPORT_UNKNOWN": (
         {"en": "{name} has no export of this name", "de": "{name} hat keinen Export dieses Namens"},
     ),
@@ -78,6 +123,18 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
             "en": "the recording has format {format_version}, this version reads up to {max_format_version}",
             "de": "die Aufnahme hat das Format {format_version}, diese Version liest bis "
             "{max_format_version}",
+        },
+    ),
+    "TABLE_NOT_WRITTEN": (
+        {
+            "en": "the table {name} cannot be written: {reason}",
+            "de": "die Tabelle {name} kann nicht geschrieben werden: {reason}",
+        },
+    ),
+    "TABLE_FILE_UNUSABLE": (
+        {
+            "en": "the table file {table} cannot be used: {reason}",
+            "de": "die Tabellendatei {table} ist nicht verwendbar: {reason}",
         },
     ),
 }

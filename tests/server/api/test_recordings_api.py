@@ -2,6 +2,7 @@
 
 import csv
 import io
+import zipfile
 from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
@@ -252,6 +253,24 @@ def test_a_video_is_made_by_a_job_and_downloaded(door: Door) -> None:
     assert door.ask("GET", f"/{name}/exports/{result['file']}", 404)["code"] == "EXPORT_UNKNOWN"
 
 
+def test_tables_and_a_sequence_are_made_by_jobs_and_downloaded(door: Door) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    tables = made(door, name, "tables", None)["result"]
+    with zipfile.ZipFile(io.BytesIO(downloaded(door, name, tables["file"]))) as archive:
+        assert len(archive.namelist()) == 3
+    sequence = made(door, name, "sequence", {"from_s": 1.0, "to_s": 1.2})["result"]
+    assert (sequence["images"], sequence["file"]) == (3, f"{name[:-5]}-1.0-1.2s.igs.mha")
+    assert downloaded(door, name, sequence["file"]).startswith(b"ObjectType = Image\n")
+    # One file of each kind.
+    assert {one["file"] for one in door.ask("GET", f"/{name}/exports", 200)["files"]} == {
+        tables["file"],
+        sequence["file"],
+    }
+    empty = made(door, name, "sequence", {"from_s": 90.0, "to_s": 91.0})
+    assert empty["problem"]["code"] == "SEQUENCE_EMPTY"
+
+
 def test_a_piece_is_made_by_a_job_and_deleted_with_its_recording(door: Door) -> None:
     door.open_a_case()
     name = door.put_drilling()
@@ -390,3 +409,36 @@ def test_the_list_opens_no_file_a_second_time(door: Door, monkeypatch: pytest.Mo
     with (door.store.home.cases / case.id / "recordings" / name).open("ab") as file:
         file.write(b"more")
     assert door.ask("GET", "", 200)["recordings"][0]["duration_s"] == 7.0
+
+
+def test_the_course_of_each_drilling_comes_from_all_recordings_of_the_case(door: Door) -> None:
+    door.open_a_case()
+    assert door.ask("GET", "/drillings", 200) == {"drillings": [], "job": None, "unread": [], "running": 0}
+    name = door.put_drilling()
+    case = door.store.get_open_case()
+    assert case is not None
+    damaged = door.store.home.cases / case.id / "recordings" / "20260102T000000Z-0000.mcap"
+    damaged.write_bytes(b"not a recording")
+    while (found := door.ask("GET", "/drillings", 200))["job"] is not None:
+        door.jobs.wait_for(found["job"]["id"], timeout_s=60.0)
+    assert found["unread"] == [damaged.name]
+    (drilling,) = found["drillings"]
+    nearest, deepest = drilling.pop("nearest"), drilling.pop("deepest")
+    assert nearest["wall"]["value"] < 0.0 < nearest["wall"]["error_95"]
+    assert deepest["depth"] == {"value": 29.0, "error_95": deepest["depth"]["error_95"]}
+    assert drilling == {
+        "recording": name,
+        "is_whole": True,
+        "began_at": "2026-01-01T00:01:40.000Z",
+        "channel": "L3 left",
+        "tool": "drill",
+        "images": DRILLED.count("path") + DRILLED.count("near") + DRILLED.count("breach"),
+        "from_s": 0.0,
+        "to_s": pytest.approx((len(DRILLED) - 1) / 10.0),
+        "at_entry": drilling["at_entry"],
+        "against": "bone",
+        "grade": "B",
+        "worst_grade": "B",
+        "missing_s": 0.9,
+        "longest_missing_s": 0.9,
+    }

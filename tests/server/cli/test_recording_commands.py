@@ -89,8 +89,12 @@ def test_without_a_target_nothing_is_exported(drilling: Path) -> None:
 
 @pytest.mark.parametrize(
     "options",
-    [("cut", "--from=0", "--to=1", "{}", "{}"), ("export", "{}", "--video", "{}")],
-    ids=lambda one: one[0],
+    [
+        ("cut", "--from=0", "--to=1", "{}", "{}"),
+        ("export", "{}", "--video", "{}"),
+        ("export", "{}", "--sequence", "{}"),
+    ],
+    ids=["piece", "video", "sequence"],
 )
 def test_a_recording_is_not_written_over_by_what_is_made_from_it(
     drilling: Path, tmp_path: Path, options: tuple[str, ...]
@@ -108,10 +112,12 @@ def test_a_recording_is_not_written_over_by_what_is_made_from_it(
     ("options", "code"),
     [
         (("export", "{}", "--to", "{}/made"), "TABLE_NOT_WRITTEN"),
+        (("export", "{}", "--to", "{}/made", "--format=parquet"), "TABLE_NOT_WRITTEN"),
         (("export", "{}", "--video", "{}/a.mp4"), "VIDEO_NOT_WRITTEN"),
+        (("export", "{}", "--sequence", "{}/a.igs.mha"), "SEQUENCE_NOT_WRITTEN"),
         (("cut", "--from=0", "--to=1", "{}", "{}/a.mcap"), "CUT_NOT_WRITTEN"),
     ],
-    ids=["tables", "video", "piece"],
+    ids=["tables", "parquet", "video", "sequence", "piece"],
 )
 def test_what_cannot_be_written_is_named(drilling: Path, options: tuple[str, ...], code: str) -> None:
     # A file is no folder.

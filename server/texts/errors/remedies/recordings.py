@@ -44,8 +44,28 @@ RECORDINGS: tuple[Text, ...] = (
         "de": "Nicht benötigte Aufnahmen löschen, oder recording.max_total_gb erhöhen; dann neu starten.",
     },
     {
-        "en": "Export it again; a new video or part replaces the previous one.",
-        "de": "Neu exportieren; ein neues Video oder ein neuer Teil ersetzt den vorigen.",
+        "en": "Export it again; a new file replaces the previous one of its kind.",
+        "de": "Neu exportieren; eine neue Datei ersetzt die vorige ihrer Art.",
+    },
+    {
+        "en": "Give a period with images, and a start before its end.",
+        "de": "Einen Zeitraum mit Bildern angeben, dessen Beginn vor dem Ende liegt.",
+    },
+    {
+        "en": "Choose a section in which the size of the images does not change.",
+        "de": "Einen Abschnitt wählen, in dem sich die Größe der Bilder nicht ändert.",
+    },
+    {
+        "en": "Choose a shorter section, or free disk space.",
+        "de": "Einen kürzeren Abschnitt wählen, oder Platz auf der Platte schaffen.",
+    },
+    {
+        "en": "Check that its folder exists and its disk has free space, then export again.",
+        "de": "Prüfen, ob der Ordner vorhanden und auf seiner Platte Platz ist, dann neu exportieren.",
+    },
+    {
+        "en": 'Install it into the environment of Coaxial: pip install "coaxial[parquet]".',
+        "de": 'In der Umgebung von Coaxial installieren: pip install "coaxial[parquet]".',
     },
     {"en": "Choose a recording with images.", "de": "Eine Aufnahme mit Bildern wählen."},
     {
@@ -55,5 +75,18 @@ RECORDINGS: tuple[Text, ...] = (
     {
         "en": "Review the recording with the version of Coaxial that recorded it.",
         "de": "Die Aufnahme mit der Version von Coaxial durchsehen, mit der sie entstand.",
+    },
+    {
+        "en": 'Install it into the environment of Coaxial: pip install "coaxial[cluster]".',
+        "de": 'In der Umgebung von Coaxial installieren: pip install "coaxial[cluster]".',
+    },
+    {
+        "en": "Check its address, as in tcp://host:8786, and that it runs.",
+        "de": "Prüfen, ob die Adresse stimmt, etwa tcp://host:8786, und ob er läuft.",
+    },
+    {"en": "Give a folder with recordings.", "de": "Einen Ordner mit Aufnahmen angeben."},
+    {
+        "en": "Give a file that can be written, or none.",
+        "de": "Eine Datei angeben, die beschrieben werden kann, oder keine.",
     },
 )

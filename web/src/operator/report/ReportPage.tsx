@@ -15,6 +15,7 @@ import { newestOf } from "../case/newest";
 import { formatTime } from "../parts/format";
 import { useProcedure } from "../../app/procedure";
 import { Alarms } from "./Alarms";
+import { Drillings } from "./Drillings";
 import { TELLING } from "./facts";
 import { PlanReport } from "./PlanReport";
 import { SignaturesReport } from "./SignaturesReport";
@@ -22,7 +23,7 @@ import { recordOf, type Heading } from "./record";
 import { RecordReport } from "./RecordReport";
 import { StepsReport } from "./StepsReport";
 
-/** The case for print: history, plan, alarms, and state of the steps. */
+/** The case for print: history, plan, course of the drillings, alarms, and state of the steps. */
 export function ReportPage(): ReactNode {
   const texts = useTexts().report;
   const procedure = useProcedure();
@@ -93,6 +94,7 @@ function Report({ caseId }: { caseId: string }): ReactNode {
         </header>
         <RecordReport entries={entries} contents={contents} readAt={readAt} />
         {plan !== null && <PlanReport caseId={caseId} heading={plan} />}
+        <Drillings />
         <SignaturesReport />
         <Alarms />
         <StepsReport procedure={procedure} readAt={readAt} />

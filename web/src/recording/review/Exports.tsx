@@ -1,7 +1,13 @@
 import { Button } from "@mantine/core";
 import { useEffect, useEffectEvent, useState, type ReactNode } from "react";
 import { formatBytes } from "../../operator/parts/format";
-import { getRecordingsByNameExports, postRecordingsByNameCut, postRecordingsByNameVideo } from "../../api";
+import {
+  getRecordingsByNameExports,
+  postRecordingsByNameCut,
+  postRecordingsByNameSequence,
+  postRecordingsByNameTables,
+  postRecordingsByNameVideo,
+} from "../../api";
 import { JobProgress } from "../../rest/JobProgress";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
@@ -21,7 +27,7 @@ interface ExportsProps {
   onPiece: (piece: Span) => void;
 }
 
-/** Saves a section of the recording, or all of it as a video, and lists exports for download. */
+/** Saves a section of the recording, or all of it as video or tables, and lists exports for download. */
 export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps): ReactNode {
   const texts = useTexts();
   const own = texts.recording.review.exports;
@@ -51,9 +57,10 @@ export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps):
       follow(await ask());
     });
   };
-  const cut = start(() =>
-    postRecordingsByNameCut({ path, body: { from_s: piece?.fromS ?? 0, to_s: piece?.toS ?? durationS } }),
-  );
+  const section = { from_s: piece?.fromS ?? 0, to_s: piece?.toS ?? durationS };
+  const cut = start(() => postRecordingsByNameCut({ path, body: section }));
+  const sequence = start(() => postRecordingsByNameSequence({ path, body: section }));
+  const tables = start(() => postRecordingsByNameTables({ path }));
   const film = start(() =>
     postRecordingsByNameVideo({ path, body: { language: texts.language === "de" ? "de" : "en" } }),
   );
@@ -91,6 +98,24 @@ export function Exports({ name, atS, durationS, piece, onPiece }: ExportsProps):
         </Button>
         <Button size="lg" disabled={isBusy} data-testid="review-video-save" onClick={film}>
           {own.saveVideo}
+        </Button>
+        <Button
+          size="lg"
+          variant="default"
+          disabled={isBusy || piece === null}
+          data-testid="review-sequence-save"
+          onClick={sequence}
+        >
+          {own.saveSequence}
+        </Button>
+        <Button
+          size="lg"
+          variant="default"
+          disabled={isBusy}
+          data-testid="review-tables-save"
+          onClick={tables}
+        >
+          {own.saveTables}
         </Button>
       </div>
       <RejectionNote rejection={doing.rejection ?? rejection} />

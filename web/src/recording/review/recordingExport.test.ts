@@ -28,6 +28,17 @@ test("a section states where it begins and whether it can be replayed exactly", 
   expect(exportText({ ...FILE, from_s: 61, is_exact: false }, de)).toContain("nicht wiederholbar");
 });
 
+test("tables state their rows, a sequence its transforms and the images without pixels", () => {
+  expect(exportText({ file: "a.zip", size_bytes: 2_000_000, rows: 1 }, en)).toBe(
+    "3 tables (Parquet) with 1 row. 2.0 MB",
+  );
+  const sequence = { ...FILE, frames: { "tool drill": "Drill", "vertebra ": "Vertebra" } };
+  expect(exportText({ ...sequence, invalid_images: 0 }, en)).toBe(
+    "120 images with the poses DrillToTracker, VertebraToTracker. 14.0 MB",
+  );
+  expect(exportText({ ...sequence, invalid_images: 2 }, de)).toContain("2 davon sind nicht dekodierbar");
+});
+
 test("what failed made nothing", () => {
   const job = { state: "done", result: FILE } as unknown as Job;
   expect(exportOf(job)).toEqual(FILE);

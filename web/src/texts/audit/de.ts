@@ -23,10 +23,11 @@ export const auditDe: AuditTexts = {
     "POST /api/recordings/stop": "Hat die Aufnahme beendet",
     "GET /api/recordings/{name}/export/{table}.csv": "Hat eine Aufnahme als CSV exportiert",
     "GET /api/recordings/{name}/file": "Hat eine Aufnahme heruntergeladen",
-    "GET /api/recordings/{name}/exports/{file}":
-      "Hat einen Abschnitt oder ein Video einer Aufnahme heruntergeladen",
+    "GET /api/recordings/{name}/exports/{file}": "Hat einen Export einer Aufnahme heruntergeladen",
     "POST /api/recordings/{name}/comments": "Hat eine Aufnahme kommentiert",
     "POST /api/recordings/{name}/cut": "Hat einen Abschnitt einer Aufnahme gespeichert",
+    "POST /api/recordings/{name}/sequence": "Hat eine Aufnahme als Sequenz gespeichert",
+    "POST /api/recordings/{name}/tables": "Hat die Tabellen einer Aufnahme gespeichert",
     "POST /api/recordings/{name}/video": "Hat eine Aufnahme als Video gespeichert",
     "PUT /api/recordings/{name}/protection": "Hat den Schutz einer Aufnahme geändert",
     "DELETE /api/recordings/{name}": "Hat eine Aufnahme gelöscht",

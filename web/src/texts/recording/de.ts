@@ -63,11 +63,13 @@ export const recordingDe: RecordingTexts = {
       title: "Exportieren",
       beginHere: "Abschnitt beginnt hier",
       endHere: "Abschnitt endet hier",
-      piece: "Abschnitt: {from} bis {to}. Das Video zeigt die ganze Aufnahme.",
+      piece: "Abschnitt: {from} bis {to}. Video und Tabellen umfassen die ganze Aufnahme.",
       whole:
-        "Für einen Abschnitt einen Zeitpunkt als Beginn und einen als Ende wählen. Das Video zeigt die ganze Aufnahme.",
+        "Für einen Abschnitt einen Zeitpunkt als Beginn und einen als Ende wählen. Video und Tabellen umfassen die ganze Aufnahme.",
       savePiece: "Abschnitt speichern",
       saveVideo: "Als Video speichern",
+      saveSequence: "Abschnitt für 3D Slicer speichern",
+      saveTables: "Tabellen speichern (Parquet)",
       download: "{file} herunterladen",
       pieceMade: {
         one: "{count} Bild ab {from}, wo ein Zustand des Trackings gespeichert ist.",
@@ -85,6 +87,18 @@ export const recordingDe: RecordingTexts = {
           "{count} Bilder dazwischen wurden nicht aufgenommen; danach ist der Abschnitt ab dem nächsten gespeicherten Zustand wiederholbar.",
       },
       videoMade: { one: "{count} Bild, {drawn} mit Overlay.", other: "{count} Bilder, {drawn} mit Overlay." },
+      tablesMade: {
+        one: "3 Tabellen (Parquet) mit {count} Zeile.",
+        other: "3 Tabellen (Parquet) mit {count} Zeilen.",
+      },
+      sequenceMade: {
+        one: "{count} Bild mit den Lagen {names}.",
+        other: "{count} Bilder mit den Lagen {names}.",
+      },
+      sequenceInvalid: {
+        one: "{count} davon ist nicht dekodierbar und schwarz.",
+        other: "{count} davon sind nicht dekodierbar und schwarz.",
+      },
       withoutOverlay: "Auf den anderen steht, warum das Overlay fehlt.",
     },
     kinds: {

@@ -61,11 +61,13 @@ export const recordingEn = {
       title: "Export",
       beginHere: "Section begins here",
       endHere: "Section ends here",
-      piece: "Section: {from} to {to}. The video shows the whole recording.",
+      piece: "Section: {from} to {to}. Video and tables cover the whole recording.",
       whole:
-        "Choose an instant for the start and one for the end of a section. The video shows the whole recording.",
+        "Choose an instant for the start and one for the end of a section. Video and tables cover the whole recording.",
       savePiece: "Save section",
       saveVideo: "Save as video",
+      saveSequence: "Save section for 3D Slicer",
+      saveTables: "Save tables (Parquet)",
       download: "Download {file}",
       pieceMade: {
         one: "{count} image, from {from} on, where a tracking state is stored.",
@@ -85,6 +87,18 @@ export const recordingEn = {
       videoMade: {
         one: "{count} image, {drawn} with the overlay.",
         other: "{count} images, {drawn} with the overlay.",
+      },
+      tablesMade: {
+        one: "3 tables (Parquet) with {count} row.",
+        other: "3 tables (Parquet) with {count} rows.",
+      },
+      sequenceMade: {
+        one: "{count} image with the poses {names}.",
+        other: "{count} images with the poses {names}.",
+      },
+      sequenceInvalid: {
+        one: "{count} of them cannot be decoded and is black.",
+        other: "{count} of them cannot be decoded and are black.",
       },
       withoutOverlay: "The others state why the overlay is missing.",
     },
