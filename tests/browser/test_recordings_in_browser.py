@@ -180,11 +180,12 @@ def test_two_recordings_are_aligned_and_compared(supervised: Supervised, watch: 
     go(page, 1, near - 3)
     at(page, near, near - 3)
     page.get_by_test_id("review-align").click()
-    expect(page.get_by_test_id("review-offset")).to_contain_text("−0.30 s")
+    expect(page.get_by_test_id("review-offset")).to_contain_text("− 0.30 s")
     expect(difference).to_have_text(re.compile(r"^0\.0 ± \d\.\d\d$"))
     for size in (TABLET, SCREEN):
         page.set_viewport_size({"width": size[0], "height": size[1]})
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        page.get_by_test_id("review-pair").evaluate("pair => pair.scrollIntoView()")
         picture(page, f"pair-{size[0]}")
 
     # The second leads, and a hidden drill has no difference.
@@ -202,6 +203,16 @@ def test_two_recordings_are_aligned_and_compared(supervised: Supervised, watch: 
     page.get_by_test_id("review-pair-close").click()
     expect(page.get_by_test_id("review-pair")).to_be_hidden()
     shows(page, 0)
+
+    # The report of the case has a drilling from each.
+    page.get_by_test_id("step-report").click()
+    drillings = page.get_by_test_id("report-drillings").get_by_role("row")
+    expect(drillings).to_have_count(3)
+    expect(drillings.nth(1)).to_contain_text(
+        re.compile(r"L3 left · drill.*−0\.8 ± 0\.17 mm.*B, .*longest 0\.9 s")
+    )
+    page.get_by_test_id("report-drillings").evaluate("part => part.scrollIntoView()")
+    picture(page, "report")
 
 
 def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(

@@ -51,7 +51,7 @@ export function ComparisonBar({ linked, titles, onClose }: ComparisonBarProps): 
           {own.close}
         </Button>
         <p data-testid="review-offset">
-          {offsetS === null ? own.notLinked : interpolate(own.offset, { offset: formatFigure(offsetS, 2) })}
+          {offsetS === null ? own.notLinked : interpolate(own.offset, { offset: signedText(offsetS) })}
         </p>
       </div>
       <p className="soft">{offsetS === null ? own.howToAlign : own.howToUnlink}</p>
@@ -87,6 +87,10 @@ export function ComparisonBar({ linked, titles, onClose }: ComparisonBarProps): 
     </div>
   );
 }
+
+/** "+ 0.30", "− 0.30". */
+const signedText = (offsetS: number): string =>
+  `${offsetS < 0 ? "\u2212" : "+"} ${formatNumber(Math.abs(offsetS), 2)}`;
 
 /** "0.3 ± 0.42", or "—"; an error is rounded up. */
 function valueText(compared: ComparedValue | null | undefined): string {

@@ -1,4 +1,4 @@
-import type { ReactNode } from "react";
+import { useEffect, useRef, type ReactNode } from "react";
 import { useTexts } from "../../texts/TextsContext";
 import { ComparisonBar } from "./ComparisonBar";
 import { ReviewPanel } from "./ReviewPanel";
@@ -37,8 +37,13 @@ interface LoadedPairProps extends ReviewPairProps {
 function LoadedPair({ names, titles, states, loaded, onClose }: LoadedPairProps): ReactNode {
   const own = useTexts().recording.review.pair;
   const linked = useLinkedInstants(names);
+  const section = useRef<HTMLElement>(null);
+  // Below the list of recordings both images would begin outside of a tablet's screen.
+  useEffect(() => {
+    section.current?.scrollIntoView({ block: "start" });
+  }, []);
   return (
-    <section className="review-compared" aria-label={own.title} data-testid="review-pair">
+    <section ref={section} className="review-compared" aria-label={own.title} data-testid="review-pair">
       <ComparisonBar linked={linked} titles={titles} onClose={onClose} />
       <div className="review-pair">
         {([0, 1] as const).map((place) => {

@@ -65,7 +65,7 @@ export const recordingDe: RecordingTexts = {
       align: "An diesen Zeitpunkten ausrichten",
       unlink: "Getrennt bewegen",
       close: "Vergleich beenden",
-      offset: "Gekoppelt: Die zweite Aufnahme ist {offset} s weiter.",
+      offset: "Gekoppelt: Zeit in der zweiten = Zeit in der ersten {offset} s",
       notLinked: "Nicht gekoppelt",
       howToAlign: "In jeder Aufnahme ein Ereignis oder einen Zeitpunkt wählen, dann ausrichten.",
       howToUnlink: "Wer eine Aufnahme bewegt, bewegt auch die andere.",

@@ -63,7 +63,7 @@ export const recordingEn = {
       align: "Align at these instants",
       unlink: "Move separately",
       close: "End comparison",
-      offset: "Linked: the second recording is {offset} s ahead.",
+      offset: "Linked: time in the second = time in the first {offset} s",
       notLinked: "Not linked",
       howToAlign: "Choose an event or an instant in each recording, then align.",
       howToUnlink: "Moving in one recording moves the other.",
