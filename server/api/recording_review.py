@@ -103,6 +103,14 @@ class RecordedInstantMessage(Message):
     """null if they were not recorded."""
 
 
+class NearestImageMessage(Message):
+    """The image of a recording nearest to a time."""
+
+    number: int
+    at_s: float
+    """Its time since the first image."""
+
+
 class CommentRequest(Message):
     """A comment on an instant of a recording."""
 
@@ -171,6 +179,12 @@ def recording_review_router(review: RecordingReview, comments: RecordingComments
     def image(name: str, number: Number) -> Response:
         """Return an image as JPEG, without overlay."""
         return Response(review.jpeg(name, number), media_type="image/jpeg", headers=CACHE)
+
+    @router.get("/nearest", responses=rejections(404, 409, 422, 503))
+    def nearest(name: str, at_s: Seconds) -> NearestImageMessage:
+        """Return the image nearest to a time since the first image."""
+        number, found_s = review.nearest(name, at_s)
+        return NearestImageMessage(number=number, at_s=found_s)
 
     @router.get("/instants/{number}", responses=rejections(404, 409, 422, 503))
     def instant(name: str, number: Number) -> RecordedInstantMessage:

@@ -196,6 +196,15 @@ class RecordingReview:
             alarms=_content(path, index.alarms[number]),
         )
 
+    def nearest(self, name: str, at_s: float) -> tuple[int, float]:
+        """Return the image nearest to a time since the first image, from 0, with its time.
+
+        Raises the same errors as `jpeg`; without images RECORDED_IMAGE_UNKNOWN.
+        """
+        _, index = self._opened(name, 0)
+        number = int(np.abs(index.at_s - at_s).argmin())
+        return number, float(index.at_s[number])
+
     def _job(self, path: Path) -> Job | None:
         """Return the last job that read this recording."""
         identity = self._started.get(path)

@@ -69,6 +69,7 @@ GET     /api/recordings/drillings
 GET     /api/recordings/{name}/file
 GET     /api/recordings/{name}/export/{table}.csv
 GET     /api/recordings/{name}/timeline
+GET     /api/recordings/{name}/nearest
 GET     /api/recordings/{name}/images/{number}.jpg
 GET     /api/recordings/{name}/instants/{number}
 GET     /api/recordings/{name}/exports

@@ -28,7 +28,7 @@ from server.store import CaseStore, DocumentKind, Home
 from tests.browser.fake_server import Feeder, setup
 from tests.procedure.patient import CAMERA_FROM_VERTEBRA, plan_content
 from tests.server.recording.no_recorder import recordings_without_process
-from tests.server.recording.reviewed import write_drilling
+from tests.server.recording.reviewed import DRILLED, write_drilling
 from tests.server.supervision.signed_in_people import sign_people_in
 from tracker.plan import plan_from_mapping
 from tracker.plan.document import plain
@@ -100,13 +100,18 @@ def fill(store: CaseStore, run: str) -> None:
     )
 
 
-def put_recording(store: CaseStore) -> None:
-    """Add a recording of an earlier day to the open case."""
+# Begins 0.3 s later than the other recording: its breach and its hidden drill come earlier.
+SECOND = DRILLED[3:]
+
+
+def put_recordings(store: CaseStore) -> None:
+    """Add two recordings of earlier days to the open case."""
     case = store.get_open_case()
     assert case is not None
     folder = store.home.cases / case.id / "recordings"
     folder.mkdir(parents=True)
     write_drilling(folder / "20260101T000000Z-0000.mcap")
+    write_drilling(folder / "20260102T000000Z-0000.mcap", SECOND)
 
 
 def main() -> None:
@@ -130,7 +135,7 @@ def main() -> None:
             publish_setup=lambda _: None,
         )
         fill(store, steps.procedure.run)
-        put_recording(store)
+        put_recordings(store)
         app = create_app(
             AppParts(
                 hub=hub,

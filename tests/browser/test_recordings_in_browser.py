@@ -6,7 +6,7 @@ from pathlib import Path
 
 import av
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.supervised import Supervised, opened
 from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, WatchedPage
@@ -136,6 +136,83 @@ def test_any_instant_of_a_recording_is_reviewed(
         assert min(shape["width"], shape["height"]) >= 44, button.inner_text()
     page.get_by_test_id("review").scroll_into_view_if_needed()
     picture(page, f"review-{size[0]}")
+
+
+def side(page: Page, place: int) -> Locator:
+    """Return one of two recordings that are compared."""
+    return page.get_by_test_id(f"review-side-{place}")
+
+
+def at(page: Page, *numbers: int) -> None:
+    """Wait until both recordings show these images."""
+    for place, number in enumerate(numbers):
+        instant = side(page, place).get_by_test_id("review-instant")
+        expect(instant).to_have_attribute("data-number", str(number))
+
+
+def go(page: Page, place: int, number: int) -> None:
+    """Move one of two recordings to an image."""
+    side(page, place).get_by_role("slider").focus()
+    page.keyboard.press("Home")
+    for _ in range(number):
+        page.keyboard.press("ArrowRight")
+
+
+def test_two_recordings_are_aligned_and_compared(supervised: Supervised, watch: Watch) -> None:
+    page = opened(watch, supervised, "o1", "operator/navigate", TABLET)
+    page.get_by_test_id("step-recordings").click()
+    page.locator("[data-name='20260101T000000Z-0000.mcap']").get_by_test_id("review-open").click()
+    page.locator("[data-name='20260102T000000Z-0000.mcap']").get_by_test_id("review-compare").click()
+    at(page, 0, 0)
+    difference = page.get_by_test_id("review-difference-wall")
+    expect(difference).to_have_text(re.compile(r"^0\.0 ± \d\.\d\d$"))
+
+    # Linked without an offset, the same time is another moment of the drilling.
+    near = DRILLED.index("breach") - 2
+    go(page, 0, near)
+    at(page, near, near)
+    expect(difference).not_to_have_text("—")
+    expect(difference).not_to_have_text(re.compile(r"^0\.0"))
+
+    # Aligned by the same event in both, nothing differs.
+    page.get_by_test_id("review-unlink").click()
+    expect(difference).to_have_text("—")
+    go(page, 1, near - 3)
+    at(page, near, near - 3)
+    page.get_by_test_id("review-align").click()
+    expect(page.get_by_test_id("review-offset")).to_contain_text("− 0.30 s")
+    expect(difference).to_have_text(re.compile(r"^0\.0 ± \d\.\d\d$"))
+    for size in (TABLET, SCREEN):
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        page.get_by_test_id("review-pair").evaluate("pair => pair.scrollIntoView()")
+        picture(page, f"pair-{size[0]}")
+
+    # The second leads, and a hidden drill has no difference.
+    hidden = DRILLED.index("hidden")
+    side(page, 1).get_by_test_id("review-events").get_by_role("button", name="No numbers").first.click()
+    at(page, hidden, hidden - 3)
+    expect(difference).to_have_text("—")
+    expect(page.get_by_test_id("review-difference-reason")).to_contain_text("no numbers")
+
+    # Before the beginning of the second there is nothing to compare with.
+    go(page, 0, 0)
+    at(page, 0, 0)
+    expect(page.get_by_test_id("review-difference-reason")).to_contain_text("no image within 0.1 s")
+    expect(difference).to_have_text("—")
+    page.get_by_test_id("review-pair-close").click()
+    expect(page.get_by_test_id("review-pair")).to_be_hidden()
+    shows(page, 0)
+
+    # The report of the case has a drilling from each.
+    page.get_by_test_id("step-report").click()
+    drillings = page.get_by_test_id("report-drillings").get_by_role("row")
+    expect(drillings).to_have_count(3)
+    expect(drillings.nth(1)).to_contain_text(
+        re.compile(r"L3 left · drill.*−0\.8 ± 0\.17 mm.*B, .*longest 0\.9 s")
+    )
+    page.get_by_test_id("report-drillings").evaluate("part => part.scrollIntoView()")
+    picture(page, "report")
 
 
 def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(

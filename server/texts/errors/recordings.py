@@ -17,12 +17,6 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
             "de": "der Scheduler {scheduler} ist nicht erreichbar: {reason}",
         },
     ),
-    "NO_RECORDINGS": (
-        {
-            "en": "{folder} and its subfolders have no recording (.mcap)",
-            "de": "{folder} und seine Unterordner enthalten keine Aufnahme (.mcap)",
-        },
-    ),
     "PARQUET_WRITER_MISSING": (
         {
             "en": "Parquet files are written with pyarrow, which is not installed",
@@ -129,12 +123,6 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the table {name} cannot be written: {reason}",
             "de": "die Tabelle {name} kann nicht geschrieben werden: {reason}",
-        },
-    ),
-    "TABLE_FILE_UNUSABLE": (
-        {
-            "en": "the table file {table} cannot be used: {reason}",
-            "de": "die Tabellendatei {table} ist nicht verwendbar: {reason}",
         },
     ),
 }

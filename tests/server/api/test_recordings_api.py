@@ -193,6 +193,16 @@ def test_any_instant_of_a_recording_is_shown_with_its_image(door: Door) -> None:
     assert door.ask("GET", f"/{name}/images/-1.jpg", 422)["code"] == "REQUEST_INVALID"
 
 
+@pytest.mark.parametrize(("at_s", "number"), [(0.0, 0), (1.26, 13), (99.0, len(DRILLED) - 1)])
+def test_the_image_nearest_to_a_time_is_found(door: Door, at_s: float, number: int) -> None:
+    door.open_a_case()
+    name = door.put_drilling()
+    door.timeline(name)
+    found = door.ask("GET", f"/{name}/nearest?at_s={at_s}", 200)
+    assert found == {"number": number, "at_s": pytest.approx(number / 10.0, abs=1e-5)}
+    assert door.ask("GET", f"/{name}/nearest?at_s=-1", 422)["code"] == "REQUEST_INVALID"
+
+
 def test_a_recording_that_runs_is_not_reviewed(door: Door) -> None:
     door.open_a_case()
     name = door.ask("POST", "/start", 200)["name"]

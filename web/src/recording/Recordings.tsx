@@ -17,10 +17,11 @@ import { interpolate } from "../texts/interpolate";
 import { useTexts } from "../texts/TextsContext";
 import { clockDuration } from "./recordingText";
 import { Review } from "./review/Review";
+import { ReviewPair } from "./review/ReviewPair";
 
 type Stored = RecordingMessage;
 
-/** Recordings of the open case and the review of one. Users with the right may protect and delete them. */
+/** Recordings of the open case and the review of one or two. Users with the right may protect and delete them. */
 export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
   const texts = useTexts();
   const own = texts.recording.list;
@@ -35,31 +36,52 @@ export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
     { key: `${caseId ?? ""} ${running} ${isWritten}` },
   );
   const [chosen, setChosen] = useState<string | null>(null);
+  const [compared, setCompared] = useState<string | null>(null);
   const { data, isLoading } = query;
   if (procedure === null || (data === null && isLoading))
     return <QueryStatus query={{ ...query, rejection: null }} />;
   if (caseId === null) return <p className="soft">{own.noCase}</p>;
   if (data === null) return <QueryStatus query={query} />;
-  const reviewed = data.find((one) => one.name === chosen && !one.is_running) ?? null;
+  const ended = data.filter((one) => !one.is_running);
+  const reviewed = ended.find((one) => one.name === chosen) ?? null;
+  const second = ended.find((one) => one.name === compared && one !== reviewed) ?? null;
+  const titleOf = (one: Stored): string => interpolate(own.title, { number: data.indexOf(one) + 1 });
   return (
     <div className="recordings" data-testid="recordings">
       {data.length === 0 && <p className="soft">{own.none}</p>}
       <ul className="recordings-list">
-        {data.map((one, index) => (
+        {data.map((one) => (
           <RecordingRow
             key={one.name}
             recording={one}
-            title={interpolate(own.title, { number: index + 1 })}
+            title={titleOf(one)}
             mayChange={mayChange}
             isReviewed={one === reviewed}
+            mayCompare={reviewed !== null && one !== reviewed && one !== second}
             onReview={() => {
               setChosen(one.name === chosen ? null : one.name);
+              setCompared(null);
+            }}
+            onCompare={() => {
+              setCompared(one.name);
             }}
             onChange={query.refetch}
           />
         ))}
       </ul>
-      {reviewed !== null && <Review key={reviewed.name} name={reviewed.name} mayExport={mayChange} />}
+      {reviewed !== null && second === null && (
+        <Review key={reviewed.name} name={reviewed.name} mayExport={mayChange} />
+      )}
+      {reviewed !== null && second !== null && (
+        <ReviewPair
+          key={`${reviewed.name} ${second.name}`}
+          names={[reviewed.name, second.name]}
+          titles={[titleOf(reviewed), titleOf(second)]}
+          onClose={() => {
+            setCompared(null);
+          }}
+        />
+      )}
     </div>
   );
 }
@@ -69,12 +91,15 @@ interface RecordingRowProps {
   title: string;
   mayChange: boolean;
   isReviewed: boolean;
+  /** Whether it can be compared with the reviewed one. */
+  mayCompare: boolean;
   onReview: () => void;
+  onCompare: () => void;
   onChange: () => void;
 }
 
 function RecordingRow(props: RecordingRowProps): ReactNode {
-  const { recording, title, mayChange, isReviewed, onReview, onChange } = props;
+  const { recording, title, mayChange, isReviewed, mayCompare, onReview, onCompare, onChange } = props;
   const texts = useTexts();
   const own = texts.recording.list;
   const doing = useAction();
@@ -114,6 +139,11 @@ function RecordingRow(props: RecordingRowProps): ReactNode {
           >
             {isReviewed ? own.close : own.review}
           </Button>
+          {mayCompare && (
+            <Button size="lg" variant="default" data-testid="review-compare" onClick={onCompare}>
+              {own.compare}
+            </Button>
+          )}
           <Button
             size="lg"
             variant="default"

@@ -84,9 +84,4 @@ RECORDINGS: tuple[Text, ...] = (
         "en": "Check its address, as in tcp://host:8786, and that it runs.",
         "de": "Prüfen, ob die Adresse stimmt, etwa tcp://host:8786, und ob er läuft.",
     },
-    {"en": "Give a folder with recordings.", "de": "Einen Ordner mit Aufnahmen angeben."},
-    {
-        "en": "Give a file that can be written, or none.",
-        "de": "Eine Datei angeben, die beschrieben werden kann, oder keine.",
-    },
 )

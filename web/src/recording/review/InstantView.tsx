@@ -6,16 +6,16 @@ import { RejectionNote } from "../../rest/RejectionNote";
 import { textOf } from "../../texts/text";
 import { useTexts } from "../../texts/TextsContext";
 import { clockDuration } from "../recordingText";
-import type { RecordedInstant, ShownInstant } from "./useShownInstant";
-
-type Tool = RecordedInstant["snapshot"]["tools"][number];
+import { displayedTool } from "./comparison";
+import type { ShownInstant } from "./useShownInstant";
 
 /** Image of an instant with its figures, limits and alarms. */
 export function InstantView({ shown, images }: { shown: ShownInstant; images: number }): ReactNode {
   const texts = useTexts();
   const own = texts.recording.review;
   const { instant, source, rejection } = shown;
-  const assessment = instant === null ? null : displayedAssessment(instant);
+  const tool = instant === null ? null : displayedTool(instant);
+  const assessment = tool?.assessment ?? null;
   return (
     <div className="review-instant" data-testid="review-instant" data-number={instant?.number ?? ""}>
       <figure className="review-image">
@@ -30,6 +30,8 @@ export function InstantView({ shown, images }: { shown: ShownInstant; images: nu
         {instant !== null && (
           <p className="review-when" data-testid="review-when">
             <strong>{clockDuration(instant.at_s)}</strong> · {own.imageOf} {instant.number + 1} / {images}
+            {instant.snapshot.channel_name !== null && ` · ${instant.snapshot.channel_name}`}
+            {tool !== null && ` · ${tool.name}`}
           </p>
         )}
         <dl className="review-figures">
@@ -67,10 +69,4 @@ export function InstantView({ shown, images }: { shown: ShownInstant; images: nu
       </div>
     </div>
   );
-}
-
-/** Figures of the displayed tool, else of the first, which has the reason for missing figures. */
-function displayedAssessment({ snapshot }: RecordedInstant): Tool["assessment"] | null {
-  const tool = snapshot.tools.find(({ name }) => name === snapshot.displayed_tool) ?? snapshot.tools[0];
-  return tool?.assessment ?? null;
 }

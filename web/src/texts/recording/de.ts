@@ -27,6 +27,7 @@ export const recordingDe: RecordingTexts = {
     isProtected: "geschützt",
     review: "Ansehen",
     close: "Schließen",
+    compare: "Vergleichen",
     download: "Herunterladen",
     protect: "Schützen",
     unprotect: "Schutz aufheben",
@@ -58,6 +59,24 @@ export const recordingDe: RecordingTexts = {
     comment: {
       label: "Kommentar zu diesem Zeitpunkt",
       write: "Kommentieren bei {time}",
+    },
+    pair: {
+      title: "Vergleich zweier Aufnahmen",
+      align: "An diesen Zeitpunkten ausrichten",
+      unlink: "Getrennt bewegen",
+      close: "Vergleich beenden",
+      offset: "Gekoppelt: Zeit in der zweiten = Zeit in der ersten {offset} s",
+      notLinked: "Nicht gekoppelt",
+      howToAlign: "In jeder Aufnahme ein Ereignis oder einen Zeitpunkt wählen, dann ausrichten.",
+      howToUnlink: "Wer eine Aufnahme bewegt, bewegt auch die andere.",
+      figure: "Wert ± 95 %",
+      difference: "Unterschied",
+      unlinked: "Ohne Ausrichtung gibt es keinen Unterschied.",
+      reasons: {
+        apart: "Kein Unterschied: Die andere Aufnahme hat kein Bild innerhalb von 0,1 s.",
+        "first-absent": "Kein Unterschied: Die erste Aufnahme hat zu diesem Zeitpunkt keine Werte.",
+        "second-absent": "Kein Unterschied: Die zweite Aufnahme hat zu diesem Zeitpunkt keine Werte.",
+      },
     },
     exports: {
       title: "Exportieren",

@@ -25,6 +25,7 @@ export const recordingEn = {
     isProtected: "protected",
     review: "Review",
     close: "Close review",
+    compare: "Compare",
     download: "Download",
     protect: "Protect",
     unprotect: "End protection",
@@ -56,6 +57,24 @@ export const recordingEn = {
     comment: {
       label: "Comment on this instant",
       write: "Comment at {time}",
+    },
+    pair: {
+      title: "Comparison of two recordings",
+      align: "Align at these instants",
+      unlink: "Move separately",
+      close: "End comparison",
+      offset: "Linked: time in the second = time in the first {offset} s",
+      notLinked: "Not linked",
+      howToAlign: "Choose an event or an instant in each recording, then align.",
+      howToUnlink: "Moving in one recording moves the other.",
+      figure: "Figure ± 95 %",
+      difference: "Difference",
+      unlinked: "There is no difference until the recordings are aligned.",
+      reasons: {
+        apart: "No difference: the other recording has no image within 0.1 s of this instant.",
+        "first-absent": "No difference: the first recording has no numbers at this instant.",
+        "second-absent": "No difference: the second recording has no numbers at this instant.",
+      },
     },
     exports: {
       title: "Export",
