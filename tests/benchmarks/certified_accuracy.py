@@ -62,7 +62,10 @@ def claims(system: RehearsedSystem, found: AccuracyAssessment) -> Iterator[tuple
     """Yield each claim and whether it holds."""
     errors = true_errors_mm(system, seed=1, rounds=TRUTH_ROUNDS)
     lengths = np.linalg.norm(errors, axis=1)
-    yield "95 % within the certified error", float(np.quantile(lengths, 0.95)) <= found.figures.error_95_mm
+    # The captures of a round are those of the near placement, and then those of the far one.
+    by_placement = lengths.reshape(TRUTH_ROUNDS, 2, -1)
+    worst = max(float(np.quantile(by_placement[:, one], 0.95)) for one in (0, 1))
+    yield "95 % within the certified error", worst <= found.figures.error_95_mm
     groups = np.tile(np.arange(18).repeat(3), TRUTH_ROUNDS)
     means = np.array([errors[groups == one].mean(axis=0) for one in range(18)])
     inside = ((errors - means[groups]) ** 2).sum() / (len(errors) - 18)

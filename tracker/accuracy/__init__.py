@@ -7,6 +7,7 @@ from tracker.accuracy.figures import DivotError, Figure, FigureName, Figures
 from tracker.accuracy.marker_geometry import TrackedTool
 from tracker.accuracy.plate import DivotPlate
 from tracker.accuracy.statistics import Estimate
+from tracker.accuracy.volume import VolumeMap, volume_map
 
 __all__ = [
     "AccuracyAssessment",
@@ -24,6 +25,8 @@ __all__ = [
     "PlateScale",
     "RestLimits",
     "TrackedTool",
+    "VolumeMap",
     "assess_accuracy",
     "capture_at_rest",
+    "volume_map",
 ]

@@ -150,13 +150,14 @@ def _plate_problems(scale: PlateScale | None, limits: AccuracyLimits) -> list[Ca
     off = max(scale.x_ratio - 1.0, scale.y_ratio - 1.0, key=abs)
     if abs(off) <= limits.max_scale_error_ratio:
         return []
+    way = "small" if off < 0.0 else "large"
     return [
         CalibrationError(
             "ACCURACY_PLATE_SCALE",
-            f"the plate is printed {abs(off):.2%} too {'small' if off < 0.0 else 'large'} by its rulers, "
-            f"allowed {limits.max_scale_error_ratio:.2%}",
+            f"the plate is printed {abs(off):.2%} too {way} by its rulers, allowed "
+            f"{limits.max_scale_error_ratio:.2%}",
             "Print the plate at 100 %, without fitting it to the page, and measure its rulers again.",
-            {"off_ratio": off, "size_ratio": abs(off), "allowed_ratio": limits.max_scale_error_ratio},
+            {"size_ratio": abs(off), "wrong_way": way, "allowed_ratio": limits.max_scale_error_ratio},
         )
     ]
 
@@ -177,8 +178,7 @@ def _fault_problems(
             CalibrationError(
                 "ACCURACY_FAULT_AMBIGUOUS",
                 f"the residuals show a systematic fault that these captures do not tell apart: {names}",
-                "Capture the plate at two distances, tilted to the camera, and the tool upright, tilted and "
-                "turned.",
+                "Capture the plate at two distances, tilted to the camera, with the tool in all postures.",
                 {"faults": names},
             )
         ]
@@ -199,12 +199,6 @@ _UNKNOWN_REMEDY = {
 
 
 def _fault_problem(one: FaultEstimate, allowed: float, *, is_measured: bool) -> CalibrationError:
-    context: dict[str, object] = {
-        "size": one.size,
-        "sd": one.sd,
-        "max_size": one.max_size,
-        "allowed": allowed,
-    }
     if not one.is_found:
         is_length = one.fault is Fault.TIP_OFFSET
         size = f"{one.max_size:.2f} mm" if is_length else f"{one.max_size:.2%}"
@@ -213,7 +207,7 @@ def _fault_problem(one: FaultEstimate, allowed: float, *, is_measured: bool) -> 
             "ACCURACY_FAULT_NOT_EXCLUDED",
             f"{_NAMES[one.fault]} of up to {size} is not excluded by these captures, allowed {limit}",
             _UNKNOWN_REMEDY[one.fault],
-            {**context, "fault": one.fault.value, "size_text": size, "limit_text": limit},
+            {"fault_phrase": _NAMES[one.fault], "size": size, "allowed": limit},
         )
     if one.fault is Fault.TIP_OFFSET:
         return CalibrationError(
@@ -221,32 +215,32 @@ def _fault_problem(one: FaultEstimate, allowed: float, *, is_measured: bool) -> 
             f"the tip of the tool is {one.size:.2f} mm (sd {one.sd:.2f}) from where it is stated, allowed "
             f"{allowed:.2f} mm with its uncertainty",
             "Check that neither the tool nor its marker is bent or loose, and calibrate the tip again.",
-            context,
+            {"size_mm": one.size, "sd_mm": one.sd, "allowed_mm": allowed},
         )
-    value = one.value[0]
+    way = "small" if one.value[0] < 0.0 else "large"
+    context = {"size_ratio": one.size, "sd_ratio": one.sd, "allowed_ratio": allowed, "wrong_way": way}
     if one.fault is Fault.FOCAL_LENGTH:
         return CalibrationError(
             "ACCURACY_FOCAL_LENGTH",
-            f"the focal length of the camera is stated {abs(value):.2%} (sd {one.sd:.2%}) too "
-            f"{'large' if value > 0.0 else 'small'}, allowed {allowed:.2%} with its uncertainty",
+            f"the focal length of the camera is stated {one.size:.2%} (sd {one.sd:.2%}) too {way}, allowed "
+            f"{allowed:.2%} with its uncertainty",
             "Calibrate the camera again with the zoom and focus of the procedure, and lock both.",
             context,
         )
-    measured = "small" if value < 0.0 else "large"
     if is_measured:
         return CalibrationError(
             "ACCURACY_MARKER_SCALE",
-            f"distances measure {abs(value):.2%} (sd {one.sd:.2%}) too {measured} on a plate whose rulers "
-            f"were measured, allowed {allowed:.2%} with its uncertainty: the stated side of the marker is "
-            f"too {measured}",
+            f"distances measure {one.size:.2%} (sd {one.sd:.2%}) too {way} on a plate whose rulers were "
+            f"measured, allowed {allowed:.2%} with its uncertainty: the stated side of the marker is too "
+            f"{way}",
             "Measure the black square of the tool's marker, correct side_mm, and calibrate the tip again.",
             context,
         )
     return CalibrationError(
         "ACCURACY_PRINT_SCALE",
-        f"the plate is printed {abs(value):.2%} (sd {one.sd:.2%}) too {measured}, or the stated side of the "
-        f"marker is too {measured}, allowed {allowed:.2%} with its uncertainty",
-        "Measure both rulers of the plate; if they are correct, measure the black square of the marker.",
+        f"the plate is printed {one.size:.2%} (sd {one.sd:.2%}) too {way}, or the stated side of the marker "
+        f"is too {way}, allowed {allowed:.2%} with its uncertainty",
+        "Measure both rulers of the plate. If they are correct, measure the black square of the marker.",
         context,
     )
 

@@ -86,7 +86,7 @@ class Figures:
     Attributes:
         figures: those that the captures determine.
         error_95_mm: with a confidence of 95 %, at least 95 % of single tips are at most this far from the
-            truth. Not less than the 95th percentile that was observed.
+            truth, in each placement. Not less than the 95th percentile that was observed.
         max_distance_error_mm: largest error of a distance between two divots of one placement, with sign.
         divots: errors by placement and divot.
     """
@@ -112,7 +112,7 @@ def figures_of(fit: PlateFit, plate: DivotPlate, tool: TrackedTool) -> Figures:
     estimates = {
         FigureName.POINT_RMS: (point.estimate, count),
         FigureName.POINT_BIAS: (component_estimate(found), fit.groups),
-        FigureName.POINT_PRECISION: (_precision(fit), count),
+        FigureName.POINT_PRECISION: (_precision(fit, found), count),
         FigureName.DISTANCE_RMS: (
             jackknife_rms(
                 lambda kept: (
@@ -147,7 +147,7 @@ def figures_of(fit: PlateFit, plate: DivotPlate, tool: TrackedTool) -> Figures:
             for name in FigureName
             if name in estimates
         ),
-        error_95_mm=_error_95_mm(fit, found, point),
+        error_95_mm=_error_95_mm(fit),
         max_distance_error_mm=float(distances[np.abs(distances).argmax()]),
         divots=_divot_errors(fit),
     )
@@ -196,10 +196,11 @@ def _point(fit: PlateFit, found: VarianceComponents) -> JackknifeRms:
         lambda kept: float(squares[kept].mean()),
         fit.group_index,
         value=max(within + (between - within) / found.size, float(squares.mean()) * _fit_correction(fit)),
+        freedom=len(squares) / _fit_correction(fit) * effective_dimension(found.total_mm2),
     )
 
 
-def _precision(fit: PlateFit) -> Estimate:
+def _precision(fit: PlateFit, found: VarianceComponents) -> Estimate:
     """Return the pooled RMS distance of single tips from the mean tip of their divot."""
     means = np.array([fit.residuals_mm[fit.group_index == one].mean(axis=0) for one in range(fit.groups)])
     squares = ((fit.residuals_mm - means[fit.group_index]) ** 2).sum(axis=1)
@@ -208,15 +209,33 @@ def _precision(fit: PlateFit) -> Estimate:
         freedom = int(kept.sum()) - len(np.unique(fit.group_index[kept]))
         return float(squares[kept].sum()) / max(freedom, 1)
 
-    return jackknife_rms(mean_square, fit.group_index).estimate
+    return jackknife_rms(mean_square, fit.group_index, freedom=found.within_freedom).estimate
 
 
-def _error_95_mm(fit: PlateFit, found: VarianceComponents, point: JackknifeRms) -> float:
-    if point.mean_square == 0.0:
+def _error_95_mm(fit: PlateFit) -> float:
+    """Return the tolerance bound of the worst placement.
+
+    Errors grow with the distance from the camera. A bound of all placements together would be exceeded by
+    more than 5 % of the tips at the far one.
+    """
+    return max(_error_95_at_mm(fit, number) for number in range(len(fit.poses)))
+
+
+def _error_95_at_mm(fit: PlateFit, placement: int) -> float:
+    residuals = fit.residuals_mm[fit.placement_index == placement]
+    _, groups = np.unique(fit.group_index[fit.placement_index == placement], return_inverse=True)
+    found = variance_components(residuals, groups, fitted_parameters=POSE_PARAMETERS)
+    correction = 3 * len(residuals) / (3 * len(residuals) - POSE_PARAMETERS)
+    squares = (residuals**2).sum(axis=1) * correction
+    rms = jackknife_rms(
+        lambda kept: float(squares[kept].mean()),
+        groups,
+        freedom=len(squares) / correction * effective_dimension(found.total_mm2),
+    )
+    if rms.mean_square == 0.0:
         return 0.0
-    lengths = np.linalg.norm(fit.residuals_mm, axis=1) * _fit_correction(fit) ** 0.5
-    ratio = point.upper_95 / point.estimate.value
-    return max(quantile_95_mm(found.total_mm2) * ratio, float(np.quantile(lengths, 0.95)))
+    bound = quantile_95_mm(found.total_mm2) * rms.upper_95 / rms.estimate.value
+    return max(bound, float(np.sqrt(np.quantile(squares, 0.95))))
 
 
 def _effective_count(found: VarianceComponents, count: int) -> float:

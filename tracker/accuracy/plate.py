@@ -35,13 +35,14 @@ class DivotPlate:
 
     def __post_init__(self) -> None:
         points = np.array(list(self.points_mm.values()), dtype=np.float64).reshape(-1, 3)
+        count, nearest_mm = len(points), self.min_distance_mm
         problem = ""
         if not (np.isfinite(points).all() and np.isfinite(self.sd_mm) and self.sd_mm >= 0.0):
             problem = "a number is not finite or negative"
-        elif len(points) < MIN_DIVOTS:
-            problem = f"it has {len(points)} divots, needed {MIN_DIVOTS}"
-        elif self.min_distance_mm < MIN_DISTANCE_MM:
-            problem = f"two divots are {self.min_distance_mm:.1f} mm apart, needed {MIN_DISTANCE_MM:g} mm"
+        elif count < MIN_DIVOTS:
+            problem = f"it has {count} divots, needed {MIN_DIVOTS}"
+        elif nearest_mm < MIN_DISTANCE_MM:
+            problem = f"two divots are {nearest_mm:.1f} mm apart, needed {MIN_DISTANCE_MM:g} mm"
         elif np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[1] < MIN_DISTANCE_MM:
             problem = "its divots are on one line"
         if problem:
@@ -49,15 +50,22 @@ class DivotPlate:
                 "PLATE_INVALID",
                 f"the plate '{self.name[:40]}' cannot be used: {problem}",
                 "Give the position of each divot in mm, as measured or printed.",
-                {"plate": self.name[:40]},
+                {
+                    "plate": self.name[:40],
+                    "plate_problem": problem,
+                    "divots": count,
+                    "needed": MIN_DIVOTS,
+                    "nearest_mm": nearest_mm,
+                    "needed_mm": MIN_DISTANCE_MM,
+                },
             )
 
     @property
     def min_distance_mm(self) -> float:
-        """Return the distance of the two divots that are nearest to each other."""
-        points = np.array(list(self.points_mm.values()), dtype=np.float64)
+        """Return the distance of the two nearest divots; infinity for fewer than two."""
+        points = np.array(list(self.points_mm.values()), dtype=np.float64).reshape(-1, 3)
         between = np.linalg.norm(points[:, None] - points[None], axis=2)
-        return float(between[np.triu_indices(len(points), 1)].min())
+        return float(between[np.triu_indices(len(points), 1)].min(initial=np.inf))
 
     def points_of(self, names: list[str]) -> Array:
         """Return the positions (n, 3) of divots by name.
@@ -70,8 +78,12 @@ class DivotPlate:
                 raise InvalidInput(
                     "DIVOT_UNKNOWN",
                     f"the plate '{self.name[:40]}' has no divot '{name[:20]}'",
-                    f"Its divots: {', '.join(self.points_mm)[:200]}.",
-                    {"divot": name[:20], "plate": self.name[:40]},
+                    f"Name one of its divots: {', '.join(self.points_mm)[:200]}.",
+                    {
+                        "divot": name[:20],
+                        "plate": self.name[:40],
+                        "divots": ", ".join(self.points_mm)[:200],
+                    },
                 )
         return np.array([self.points_mm[name] for name in names], dtype=np.float64)
 

@@ -12,6 +12,7 @@ from tracker.errors import InvalidInput
 from tracker.geometry import Array, Camera, Pattern, Rigid, skew
 
 MIN_DIVOTS_PER_PLACEMENT = 4
+MIN_AGAIN_PER_PLACEMENT = 4
 POSE_PARAMETERS = 6
 
 
@@ -101,13 +102,20 @@ def _procrustes(plate_mm: Array, tips_mm: Array) -> Rigid[Camera, Pattern]:
 
 def _reject_small(placement: str, captures: Sequence[DivotCapture]) -> None:
     divots = {one.divot for one in captures}
-    if len(divots) < MIN_DIVOTS_PER_PLACEMENT:
+    again = len(captures) - len(divots)
+    if len(divots) < MIN_DIVOTS_PER_PLACEMENT or again < MIN_AGAIN_PER_PLACEMENT:
         raise InvalidInput(
             "ACCURACY_PLACEMENT_SMALL",
-            f"in the placement '{placement[:20]}' {len(divots)} divots were captured, needed "
-            f"{MIN_DIVOTS_PER_PLACEMENT}",
-            "Capture more divots of the plate before it is moved.",
-            {"placement": placement[:20], "divots": len(divots), "needed": MIN_DIVOTS_PER_PLACEMENT},
+            f"the placement '{placement[:20]}' has {len(captures)} captures of {len(divots)} divots, needed "
+            f"{MIN_DIVOTS_PER_PLACEMENT} divots and {MIN_AGAIN_PER_PLACEMENT} captures more than divots",
+            "Capture more divots of the plate before it is moved, each upright, tilted and turned.",
+            {
+                "placement": placement[:20],
+                "captures": len(captures),
+                "divots": len(divots),
+                "needed": MIN_DIVOTS_PER_PLACEMENT,
+                "needed_more": MIN_AGAIN_PER_PLACEMENT,
+            },
         )
 
 
@@ -131,6 +139,6 @@ def _reject_wrong_divot(fit: PlateFit, plate: DivotPlate) -> None:
         "ACCURACY_WRONG_DIVOT",
         f"the tip is {off_mm[worst]:.1f} mm from its divot in the capture {capture.title}; the nearest divot "
         f"is '{nearest[:20]}'",
-        "Correct the name of the divot, or record the captures of this placement again if the plate moved.",
+        "Correct the name of the divot. If the plate moved, record its captures again as another placement.",
         {"capture": capture.title, "off_mm": float(off_mm[worst]), "nearest": nearest[:20]},
     )

@@ -183,6 +183,7 @@ def jackknife_rms(
     groups: npt.NDArray[np.int_],
     *,
     value: float | None = None,
+    freedom: float | None = None,
 ) -> JackknifeRms:
     """Return a root mean square with its uncertainty.
 
@@ -190,6 +191,8 @@ def jackknife_rms(
         mean_square: called with a mask (n,) of the samples that remain.
         groups: (n,) group of each sample.
         value: a better estimate of the mean square; default: that of all samples.
+        freedom: degrees of freedom of normal samples, below whose uncertainty a jackknife of few groups can
+            be by chance.
     """
     of_all = mean_square(np.ones(len(groups), dtype=np.bool_))
     count = int(groups.max()) + 1
@@ -197,4 +200,6 @@ def jackknife_rms(
     if of_all > 0.0:
         logs = np.log([max(mean_square(groups != one), 1e-12 * of_all) for one in range(count)])
     sd = float(np.sqrt((count - 1) / count * ((logs - logs.mean()) ** 2).sum()))
+    if freedom is not None and of_all > 0.0:
+        sd = max(sd, (2.0 / freedom) ** 0.5)
     return JackknifeRms(mean_square=of_all if value is None else value, log_sd=sd, groups=count)

@@ -53,9 +53,10 @@ def test_a_sound_system_is_certified_to_an_error_that_later_captures_keep() -> N
     found = assessed(SOUND)
     assert codes(found) == []
     lengths: Array = np.linalg.norm(true_errors_mm(SOUND, seed=1, rounds=3), axis=1)
-    assert float(np.quantile(lengths, 0.95)) <= found.figures.error_95_mm
+    near, far = (float(np.quantile(one, 0.95)) for one in lengths.reshape(3, 2, -1).transpose(1, 0, 2))
+    assert near < far <= found.figures.error_95_mm
     # The bound is no excuse: it is of the size of the error.
-    assert found.figures.error_95_mm < 2.0 * float(np.quantile(lengths, 0.95))
+    assert found.figures.error_95_mm < 2.0 * far
 
 
 @pytest.mark.parametrize(
