@@ -4,7 +4,7 @@ import hashlib
 import os
 import sys
 from collections.abc import MutableMapping, Sequence
-from importlib.metadata import PackageNotFoundError, distribution
+from importlib.metadata import PackageNotFoundError, distribution, version
 from importlib.resources import files
 from pathlib import Path
 
@@ -73,6 +73,14 @@ def place_code_cache(environment: MutableMapping[str, str], record: str | None) 
         if os.access(parent / name, os.W_OK):
             environment[CODE_CACHE_VARIABLE] = str(parent / name)
             return
+
+
+def product_version() -> str:
+    """Return the installed version; "unknown" if the package is not installed."""
+    try:
+        return version("coaxial")
+    except PackageNotFoundError:
+        return "unknown"
 
 
 def installed_record() -> str | None:

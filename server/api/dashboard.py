@@ -1,11 +1,10 @@
 """Start-up data of the page."""
 
-from importlib.metadata import PackageNotFoundError, version
-
 from fastapi import APIRouter
 
 from server.api.alarms import ARMED_EVERY_S, SoundMessage, sound_messages
 from server.config import Config
+from server.installation import product_version
 from server.overlay.panel_readings import RESEARCH_SOFTWARE
 from server.stream.message import Message
 
@@ -56,14 +55,6 @@ class DashboardMessage(Message):
     """Alarm sounds, highest priority first."""
     armed_every_s: float
     """Period of the sound reports of a screen."""
-
-
-def product_version() -> str:
-    """Return the installed version; "unknown" if the package is not installed."""
-    try:
-        return version("coaxial")
-    except PackageNotFoundError:
-        return "unknown"
 
 
 def dashboard_message(config: Config, *, scene_available: bool) -> DashboardMessage:

@@ -21,6 +21,7 @@ from tracker.accuracy import (
     TrackedTool,
     volume_map,
 )
+from tracker.camera import CameraModel
 from tracker.errors import InvalidInput
 
 MAX_VALID_DAYS = 366
@@ -83,20 +84,19 @@ class CertifiedCamera(CertificatePart):
     source: str | None
     device: str
     controls: dict[str, int]
+    readout_ms: float | None
     size_wh_px: tuple[int, int]
     focal_px: tuple[float, float]
-    sha256: str
-    """Of identity, controls and every parameter of the calibration."""
+    calibration_sha256: str
+    """Of the canonical JSON of matrix, distortion and size_wh_px."""
 
 
 class CertifiedTool(CertificatePart):
-    """The tool with its marker and its calibration."""
+    """The tool: its marker and its tip. The test does not examine its axis."""
 
     marker: str
     side_mm: float
     tip_in_marker_mm: tuple[float, float, float]
-    sha256: str
-    """Of marker, side, tip and axis."""
 
 
 class CertifiedPlate(CertificatePart):
@@ -172,7 +172,7 @@ class Issue:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TestedSystem:
+class ExaminedSystem:
     """Camera, tool and plate of a test, as files."""
 
     camera: CameraFile
@@ -196,7 +196,7 @@ def tracked_tool_of(camera: CameraFile, tool: ToolFile) -> TrackedTool:
 
 
 def certificate_of(
-    found: AccuracyAssessment, captures: Sequence[DivotCapture], system: TestedSystem, issue: Issue
+    found: AccuracyAssessment, captures: Sequence[DivotCapture], system: ExaminedSystem, issue: Issue
 ) -> Certificate:
     """Return the certificate of a test without problems.
 
@@ -302,43 +302,36 @@ def round_up(value_mm: float) -> float:
 def certified_camera(file: CameraFile) -> CertifiedCamera:
     """Return what a certificate states of a camera."""
     model = file.model
-    parameters = {
-        "matrix": model.matrix.tolist(),
-        "distortion": model.distortion.tolist(),
-        "size_wh_px": list(model.size_wh_px),
-        "name": file.camera_name,
-        "source": file.camera_source,
-        "device": file.device,
-        "controls": controls_values(file.controls),
-        "readout_ms": file.readout_ms,
-    }
     return CertifiedCamera(
         name=file.camera_name,
         source=file.camera_source,
         device=file.device,
         controls=controls_values(file.controls),
+        readout_ms=file.readout_ms,
         size_wh_px=model.size_wh_px,
         focal_px=(float(model.matrix[0, 0]), float(model.matrix[1, 1])),
-        sha256=_sha256(parameters),
+        calibration_sha256=calibration_sha256(model),
+    )
+
+
+def calibration_sha256(model: CameraModel) -> str:
+    """Return the SHA-256 of every parameter of a camera model."""
+    return _sha256(
+        {
+            "matrix": model.matrix.tolist(),
+            "distortion": model.distortion.tolist(),
+            "size_wh_px": list(model.size_wh_px),
+        }
     )
 
 
 def certified_tool(file: ToolFile) -> CertifiedTool:
     """Return what a certificate states of a tool."""
     x, y, z = file.pivot.tip_in_marker_mm
-    parameters = {
-        "marker": file.marker,
-        "side_mm": file.side_mm,
-        "tip_in_marker_mm": [x, y, z],
-        "covariance_mm2": file.pivot.covariance_mm2,
-        "axis_in_marker": None if file.spin is None else file.spin.axis_in_marker,
-    }
-    return CertifiedTool(
-        marker=file.marker, side_mm=file.side_mm, tip_in_marker_mm=(x, y, z), sha256=_sha256(parameters)
-    )
+    return CertifiedTool(marker=file.marker, side_mm=file.side_mm, tip_in_marker_mm=(x, y, z))
 
 
-def _plate(system: TestedSystem) -> CertifiedPlate:
+def _plate(system: ExaminedSystem) -> CertifiedPlate:
     plate, scale = system.plate, system.scale
     return CertifiedPlate(
         name=plate.name,
@@ -363,7 +356,7 @@ def _latency(measured: LatencyResult) -> CertifiedLatency:
 
 
 def _volume(
-    found: AccuracyAssessment, captures: Sequence[DivotCapture], system: TestedSystem
+    found: AccuracyAssessment, captures: Sequence[DivotCapture], system: ExaminedSystem
 ) -> CertifiedVolume:
     volume = volume_map(captures, system.tracked_tool(), error_95_mm=found.figures.error_95_mm)
     low, high = (

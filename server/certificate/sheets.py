@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Iterator, Sequence
 
 from server.certificate.content import Certificate, CertifiedFault, CertifiedFigure, CertifiedVolume
-from server.printing import PAPER_MM, Disc, Fill, Label, Line, Sheet
+from server.certificate.signature import SigningKey
+from server.printing import PAPER_MM, Attachment, Disc, Fill, Label, Line, Sheet, pdf_from_sheets
 from server.printing.sheet import Mark, Point, rectangle
 
 LEFT_MM, TOP_MM, LINE_MM = 20.0, 22.0, 5.2
@@ -42,6 +43,13 @@ def certificate_sheets(certificate: Certificate, *, signer: str) -> tuple[Sheet,
         ),
         Sheet(title="Accuracy certificate, volume", size_mm=size, marks=(white, *_second_page(certificate))),
     )
+
+
+def certificate_pdf(certificate: Certificate, signed_json: bytes, key: SigningKey) -> bytes:
+    """Return the signed PDF of a certificate, with its signed JSON attached."""
+    sheets = certificate_sheets(certificate, signer=key.signer)
+    attachment = Attachment(name="certificate.json", content=signed_json)
+    return key.signed_pdf(pdf_from_sheets(sheets, attachment=attachment))
 
 
 def figure_rows(figures: Iterable[CertifiedFigure]) -> list[tuple[str, str, str, str]]:
@@ -110,10 +118,9 @@ def _ties(certificate: Certificate, signer: str) -> list[str]:
         f"Camera {_cut(camera.name or camera.source or camera.device or 'without a name', 50)}, "
         f"{camera.size_wh_px[0]}x{camera.size_wh_px[1]} px, focal length {camera.focal_px[0]:.1f} and "
         f"{camera.focal_px[1]:.1f} px; controls: {_cut(controls, 40)}",
-        f"    calibration SHA-256 {camera.sha256}",
+        f"    calibration SHA-256 {camera.calibration_sha256}",
         f"Tool with marker {tool.marker}, side {tool.side_mm:g} mm, tip "
         f"{', '.join(f'{value:.2f}' for value in tool.tip_in_marker_mm)} mm",
-        f"    calibration SHA-256 {tool.sha256}",
         f"Plate {_cut(plate.name, 40)}: {plate.divots} divots, rulers {plate.scale_x_ratio:.2%} and "
         f"{plate.scale_y_ratio:.2%} of their length (sd {plate.scale_sd_ratio:.2%})",
         f"Coaxial {certificate.software_version}",

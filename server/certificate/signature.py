@@ -130,20 +130,38 @@ def verified_pdf(file: bytes) -> tuple[dict[str, Any], str]:
     """
     pdf, comment = file[:-PDF_COMMENT_BYTES], file[-PDF_COMMENT_BYTES:]
     words = comment.decode("latin-1").split(" ")
-    start, end = b"/Type /EmbeddedFile /Length ", b"\nendstream"
-    at = pdf.find(start)
-    if len(words) != 3 or at < 0:
+    attached = _attached(pdf)
+    if len(words) != 3 or not attached:
         raise InvalidInput("CERTIFICATE_UNREADABLE", "the PDF is not a certificate", REMEDY)
     signer, signed = words[1], words[2].removesuffix("\n")
     if comment != PDF_COMMENT % (signer.encode("latin-1"), signed.encode("latin-1")) or not _is_signed(
         signer, signed, PDF_PREFIX + pdf
     ):
         raise _altered()
-    first = pdf.index(b"stream\n", at) + len(b"stream\n")
-    content, author = verified_json(pdf[first : pdf.index(end, first)])
+    content, author = verified_json(attached)
     if author != signer:
         raise _altered()
     return content, signer
+
+
+def json_of(file: bytes) -> bytes:
+    """Return the certificate as JSON, from a verified JSON or PDF.
+
+    Raises:
+        InvalidInput: CERTIFICATE_UNREADABLE or CERTIFICATE_ALTERED.
+    """
+    if not file.startswith(b"%PDF"):
+        verified_json(file)
+        return file
+    verified_pdf(file)
+    return _attached(file)
+
+
+def _attached(pdf: bytes) -> bytes:
+    """Return the attached JSON; empty without one."""
+    at = pdf.find(b"/Type /EmbeddedFile /Length ")
+    first = pdf.find(b"stream\n", at) + len(b"stream\n")
+    return pdf[first : pdf.find(b"\nendstream", first)] if at >= 0 else b""
 
 
 def _is_signed(signer: str, signed: str, message: bytes) -> bool:

@@ -1,14 +1,27 @@
 """Validity of a certificate: by time, and by what it was issued for."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from server.camera_file import CameraFile
-from server.certificate.content import Certificate, certificate_from, certified_camera, certified_tool
+import numpy as np
+import numpy.typing as npt
+
+from server.camera_file import CameraFile, controls_values
+from server.certificate.content import (
+    Certificate,
+    CertifiedCamera,
+    CertifiedTool,
+    calibration_sha256,
+    certificate_from,
+)
 from server.certificate.signature import verified_json, verified_pdf
 from server.tool_file import ToolFile
+from tracker.camera import CameraModel
 from tracker.errors import InvalidInput
 
+# Values are written with eight digits.
+SAME_MM = 1e-5
 REMEDY = "Repeat the accuracy test, and issue a new certificate."
 
 
@@ -21,11 +34,73 @@ class VerifiedCertificate:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CameraInUse:
+    """A camera to compare with a certificate; a value of None is unknown, and not compared.
+
+    Attributes:
+        model: the calibration.
+        name, source, device, controls, readout_ms: as in `CameraFile`.
+    """
+
+    model: CameraModel
+    name: str | None = None
+    source: str | None = None
+    device: str | None = None
+    controls: Mapping[str, int] | None = None
+    readout_ms: float | None = None
+
+    @classmethod
+    def of_file(cls, file: CameraFile) -> "CameraInUse":
+        """Return the camera of a camera file."""
+        return cls(
+            model=file.model,
+            name=file.camera_name,
+            source=file.camera_source,
+            device=file.device or None,
+            controls=controls_values(file.controls),
+            readout_ms=file.readout_ms,
+        )
+
+    def differs_from(self, certified: CertifiedCamera) -> bool:
+        """Return whether the certificate is of another camera, lens or calibration."""
+        pairs = (
+            (self.name, certified.name),
+            (self.source, certified.source),
+            (self.device, certified.device),
+            (self.controls, certified.controls),
+            (self.readout_ms, certified.readout_ms),
+        )
+        return calibration_sha256(self.model) != certified.calibration_sha256 or any(
+            here is not None and here != there for here, there in pairs
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToolInUse:
+    """A tool to compare with a certificate."""
+
+    marker: str
+    side_mm: float
+    tip_in_marker_mm: npt.ArrayLike
+
+    @classmethod
+    def of_file(cls, file: ToolFile) -> "ToolInUse":
+        """Return the tool of a tool file."""
+        return cls(marker=file.marker, side_mm=file.side_mm, tip_in_marker_mm=file.pivot.tip_in_marker_mm)
+
+    def differs_from(self, certified: CertifiedTool) -> bool:
+        """Return whether the certificate is of another marker or tip."""
+        here = [self.side_mm, *np.asarray(self.tip_in_marker_mm, dtype=np.float64)]
+        there = [certified.side_mm, *certified.tip_in_marker_mm]
+        return self.marker != certified.marker or not np.allclose(here, there, rtol=0.0, atol=SAME_MM)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SystemInUse:
     """What a certificate is compared with; None where it is not compared."""
 
-    camera: CameraFile | None = None
-    tool: ToolFile | None = None
+    camera: CameraInUse | None = None
+    tool: ToolInUse | None = None
     software_version: str | None = None
 
 
@@ -62,7 +137,7 @@ def invalidities(certificate: Certificate, system: SystemInUse, *, now: datetime
                 {"issued_at": certificate.issued_at},
             )
         )
-    if system.camera is not None and certified_camera(system.camera).sha256 != certificate.camera.sha256:
+    if system.camera is not None and system.camera.differs_from(certificate.camera):
         found.append(
             InvalidInput(
                 "CERTIFICATE_CAMERA_CHANGED",
@@ -70,7 +145,7 @@ def invalidities(certificate: Certificate, system: SystemInUse, *, now: datetime
                 REMEDY,
             )
         )
-    if system.tool is not None and certified_tool(system.tool).sha256 != certificate.tool.sha256:
+    if system.tool is not None and system.tool.differs_from(certificate.tool):
         found.append(
             InvalidInput(
                 "CERTIFICATE_TOOL_CHANGED",

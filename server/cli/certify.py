@@ -12,12 +12,12 @@ from server.camera_file import CameraFile, read_camera_file
 from server.certificate import (
     Certificate,
     CertifiedAudit,
+    ExaminedSystem,
     Issue,
     PlateFile,
     SigningKey,
-    TestedSystem,
     certificate_of,
-    certificate_sheets,
+    certificate_pdf,
     certified_faults,
     certified_figures,
     fault_rows,
@@ -32,8 +32,7 @@ from server.clock import utc_now
 from server.home_folder import home_folder
 from server.latency import LatencyResult
 from server.pose_file import Unit
-from server.printing import grid_of_divots, pdf_from_sheet, pdf_from_sheets, plate_sheet, svg_from_sheet
-from server.printing.pdf import Attachment
+from server.printing import grid_of_divots, pdf_from_sheet, plate_sheet, svg_from_sheet
 from server.printing.plate_sheet import RULER_MM
 from server.security.audit.files import read_head
 from server.store.latency_file import LatencyFile
@@ -138,7 +137,7 @@ def issue_certificate(options: IssueOptions, *, as_json: bool) -> int:
             audit=_audit(home),
             latency=_latency(home, camera),
         )
-        system = TestedSystem(camera=camera, tool=tool_file, plate=plate_file, scale=scale)
+        system = ExaminedSystem(camera=camera, tool=tool_file, plate=plate_file, scale=scale)
         certificate = certificate_of(found, captures, system, issue)
     written = [] if certificate is None else _write(certificate, options.output)
     _print(found, certificate, written, as_json=as_json)
@@ -150,10 +149,9 @@ def _write(certificate: Certificate, output: Path | None) -> list[Path]:
         return []
     key = SigningKey(home_folder())
     signed = key.signed_json(certificate.json_values())
-    sheets = certificate_sheets(certificate, signer=key.signer)
-    pdf = pdf_from_sheets(sheets, attachment=Attachment(name="certificate.json", content=signed))
+    pdf = certificate_pdf(certificate, signed, key)
     paths = [output.with_name(f"{output.name}.json"), output.with_name(f"{output.name}.pdf")]
-    for path, content in zip(paths, (signed, key.signed_pdf(pdf)), strict=True):
+    for path, content in zip(paths, (signed, pdf), strict=True):
         write_atomically(path, content)
     return paths
 

@@ -7,7 +7,15 @@ from pathlib import Path
 import typer
 
 from server.camera_file import read_camera_file
-from server.certificate import SystemInUse, VerifiedCertificate, existing_signer, invalidities, verified
+from server.certificate import (
+    CameraInUse,
+    SystemInUse,
+    ToolInUse,
+    VerifiedCertificate,
+    existing_signer,
+    invalidities,
+    verified,
+)
 from server.certificate.signature import MAX_BYTES, REMEDY
 from server.clock import utc_now
 from server.home_folder import home_folder
@@ -37,8 +45,8 @@ def check_certificate(options: CheckOptions, *, as_json: bool) -> int:
     found = read_certificate(options.file)
     certificate = found.certificate
     system = SystemInUse(
-        camera=None if options.camera is None else read_camera_file(options.camera),
-        tool=None if options.tool is None else load_tool_file(options.tool),
+        camera=None if options.camera is None else CameraInUse.of_file(read_camera_file(options.camera)),
+        tool=None if options.tool is None else ToolInUse.of_file(load_tool_file(options.tool)),
         software_version=None if options.camera is None and options.tool is None else options.version,
     )
     problems = [

@@ -117,7 +117,7 @@ def issue(
     distances. Figures follow ASTM F2554. Exit status 1 if the accuracy is refused, with all reasons.
     """
     from server.cli.certify import IssueOptions, issue_certificate  # noqa: PLC0415  loaded when needed
-    from server.cli.commands import coaxial_version  # noqa: PLC0415
+    from server.installation import product_version  # noqa: PLC0415
 
     options = IssueOptions(
         captures=captures,
@@ -131,7 +131,7 @@ def issue(
         max_error_mm=max_error_mm,
         by=by,
         unit=unit.value,
-        version=coaxial_version(),
+        version=product_version(),
     )
     raise typer.Exit(issue_certificate(options, as_json=json))
 
@@ -162,9 +162,9 @@ def check(
     a key of their own: get the key of --signer from the issuer in another way.
     """
     from server.cli.certify_check import CheckOptions, check_certificate  # noqa: PLC0415  loaded when needed
-    from server.cli.commands import coaxial_version  # noqa: PLC0415
+    from server.installation import product_version  # noqa: PLC0415
 
-    options = CheckOptions(file=file, signer=signer, camera=camera, tool=tool, version=coaxial_version())
+    options = CheckOptions(file=file, signer=signer, camera=camera, tool=tool, version=product_version())
     raise typer.Exit(check_certificate(options, as_json=json))
 
 

@@ -157,6 +157,19 @@ CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
     "CERTIFICATE_KEY_DAMAGED": (
         {"en": "the key in {file} cannot be read", "de": "der Schlüssel in {file} ist nicht lesbar"},
     ),
+    "CERTIFICATE_MISSING": (
+        {
+            "en": "no accuracy certificate is installed for the marker '{marker}'",
+            "de": "für den Marker „{marker}“ ist kein Genauigkeitszertifikat installiert",
+        },
+    ),
+    "CERTIFICATE_NOT_APPLICABLE": (
+        {
+            "en": "the camera is not calibrated, or its focus or zoom has changed: no certificate applies",
+            "de": "die Kamera ist nicht kalibriert, oder Schärfe oder Zoom wurde verstellt: kein Zertifikat "
+            "gilt",
+        },
+    ),
     "CERTIFICATE_PERIOD_INVALID": (
         {
             "en": "a certificate cannot be valid for {days} days, allowed 1 to {max_days}",
@@ -167,6 +180,12 @@ CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "an accuracy test with {problems} problems is not certified",
             "de": "ein Genauigkeitstest mit {problems} Problemen wird nicht zertifiziert",
+        },
+    ),
+    "CERTIFICATE_SIGNER_UNKNOWN": (
+        {
+            "en": "the certificate is not signed by this installation",
+            "de": "das Zertifikat ist nicht von dieser Installation signiert",
         },
     ),
     "CERTIFICATE_SOFTWARE_CHANGED": (

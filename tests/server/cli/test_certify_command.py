@@ -139,7 +139,7 @@ def test_a_certificate_is_void_after_a_change(
 
 def test_a_certificate_is_void_with_another_version(certificate: Path) -> None:
     camera = certificate.parent / "test" / "camera.yaml"
-    with patch("server.cli.commands.coaxial_version", lambda: "9.9"):
+    with patch("server.installation.product_version", lambda: "9.9"):
         assert "in use is 9.9" in typed("check", certificate, "--camera", camera, status=1)
 
 

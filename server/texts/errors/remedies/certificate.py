@@ -87,6 +87,18 @@ CERTIFICATE: tuple[Text, ...] = (
         "en": "Repeat the accuracy test, and issue a new certificate.",
         "de": "Den Genauigkeitstest wiederholen und ein neues Zertifikat ausstellen.",
     },
+    {
+        "en": "Do the accuracy test, and install its certificate.",
+        "de": "Den Genauigkeitstest durchführen und sein Zertifikat installieren.",
+    },
+    {
+        "en": "Calibrate the camera, or restore focus and zoom.",
+        "de": "Die Kamera kalibrieren oder Schärfe und Zoom wiederherstellen.",
+    },
+    {
+        "en": "Issue it with COAXIAL_HOME set to the folder of this server.",
+        "de": "Mit COAXIAL_HOME auf dem Ordner dieses Servers ausstellen.",
+    },
     {"en": "Set the clock of this computer.", "de": "Die Uhr dieses Computers stellen."},
     {
         "en": "Restore this file from a backup, or remove it: then a new key signs, and older certificates "
