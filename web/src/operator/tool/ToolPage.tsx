@@ -9,6 +9,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { useDocuments } from "../parts/useDocuments";
 import { useGates } from "../parts/useGates";
 import { useProcedure } from "../../app/procedure";
+import { CertificateCard } from "./CertificateCard";
 import { PoseCollection } from "./PoseCollection";
 import type { Purpose } from "./toolRecord";
 import { NewTool } from "./NewTool";
@@ -70,6 +71,7 @@ export function ToolPage(): ReactNode {
               busy={beginning.busy}
               onBegin={begin}
             />
+            <CertificateCard />
           </>
         )}
       </div>
