@@ -32,6 +32,6 @@ test("several tools are named", () => {
   );
 });
 
-test("without a tool nothing is certified", () => {
-  expect(certificateText({ tools: [] }, certificateEn)).toBe("no tool in use");
+test("without a tool in an image nothing is certified", () => {
+  expect(certificateText({ tools: [] }, certificateEn)).toBe("not certified");
 });

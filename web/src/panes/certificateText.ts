@@ -4,9 +4,9 @@ import type { Certificates, ToolCertification } from "../rest/useCertificates";
 import type { CertificateTexts } from "../texts/certificate/en";
 import { interpolate } from "../texts/interpolate";
 
-/** The tools are named only where there are several. */
+/** The tools are named only where there are several. Without images none is known, and nothing is certified. */
 export function certificateText({ tools }: Certificates, texts: CertificateTexts): string {
-  if (tools.length === 0) return texts.noTool;
+  if (tools.length === 0) return texts.notCertified;
   if (tools.length === 1) return tools.map((one) => toolCertificateText(one, texts)).join("");
   return tools
     .map((one) => interpolate(texts.ofTool, { tool: one.tool, state: toolCertificateText(one, texts) }))

@@ -45,7 +45,13 @@ export function ToolPage(): ReactNode {
   if (gates.data === null) return <QueryStatus query={gates} />;
   if (procedure.data === null && procedure.rejection === null) return <QueryStatus query={procedure} />;
   const gate = gates.data.tool_calibration;
-  if (procedure.data?.case_id === null) return <p className="card-lead">{texts.noCase}</p>;
+  if (procedure.data?.case_id === null)
+    return (
+      <div className="cards">
+        <p className="card-lead">{texts.noCase}</p>
+        <CertificateCard />
+      </div>
+    );
   return (
     <div className="beside">
       <div className="cards">

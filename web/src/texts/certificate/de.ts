@@ -7,7 +7,6 @@ export const certificateDe: CertificateTexts = {
   certified: "zertifiziert bis {day} auf {mm} mm",
   notCertified: "nicht zertifiziert",
   ofTool: "{tool}: {state}",
-  noTool: "kein Instrument in Gebrauch",
   noPicture: "Warten auf das erste Bild.",
   install: "Zertifikat installieren",
   issued: "Ausgestellt {day} von {person}",

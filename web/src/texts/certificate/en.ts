@@ -5,7 +5,6 @@ export const certificateEn = {
   certified: "certified until {day} to {mm} mm",
   notCertified: "not certified",
   ofTool: "{tool}: {state}",
-  noTool: "no tool in use",
   noPicture: "Waiting for the first image.",
   install: "Install a certificate",
   issued: "Issued {day} by {person}",
