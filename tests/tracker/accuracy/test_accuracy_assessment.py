@@ -232,3 +232,16 @@ def test_a_plate_that_is_no_reference_is_rejected(
 ) -> None:
     with pytest.raises(InvalidInput, match=reason):
         DivotPlate(name="odd", points_mm=points)
+
+
+def test_the_stated_error_of_the_tip_counts_once_for_all_captures() -> None:
+    """A tip calibrated to 0.4 mm moves all captures as far as the tool turns, and that is stated."""
+    system = replace(SOUND, tip_sd_mm=0.4)
+    inside = assessed(system).figures.get(FigureName.INSIDE_STATED)
+    exact = replace(system.tool, tip_covariance_mm2=np.zeros((3, 3)))
+    bold = assess_accuracy(captures_of(system), PLATE, exact, plate_scale=MEASURED)
+    unstated = bold.figures.get(FigureName.INSIDE_STATED)
+    assert inside is not None
+    assert unstated is not None
+    assert unstated.estimate.value < inside.estimate.value - 0.05
+    assert inside.estimate.high > 0.95
