@@ -9,6 +9,7 @@ from typing import Any
 import typer
 
 from server.camera_file import CameraFile, read_camera_file
+from server.capture.address import source_from_text
 from server.certificate import (
     Certificate,
     CertifiedAudit,
@@ -230,5 +231,7 @@ def _audit(home: Path) -> CertifiedAudit | None:
 
 
 def _latency(home: Path, camera: CameraFile) -> LatencyResult | None:
-    name = camera.camera_name
-    return None if name is None or not home.exists() else LatencyFile(home).of(name)
+    if camera.camera_source is None or not home.exists():
+        return None
+    # Latencies are stored by the name of the source, as `defaults_from_config` does.
+    return LatencyFile(home).of(source_from_text(camera.camera_source).name)

@@ -11,7 +11,10 @@ import pytest
 import yaml
 from typer.testing import CliRunner
 
+from server.capture.address import source_from_text
 from server.cli import app
+from server.latency import LatencyReport, LatencyResult, Screen
+from server.store.latency_file import LatencyFile
 from tracker.errors import NavigationError
 
 
@@ -99,6 +102,40 @@ def test_elsewhere_a_certificate_is_valid_only_with_the_key_of_its_issuer(
     assert "unknown key" in typed("check", certificate, status=1)
     assert "Valid." in typed("check", certificate, "--signer", signer)
     assert "another key" in typed("check", certificate, "--signer", "00" * 32, status=1)
+
+
+def test_a_measured_latency_of_the_camera_is_in_the_certificate(tmp_path: Path, home: Path) -> None:
+    words = rehearsed(tmp_path / "test")
+    camera = tmp_path / "test" / "camera.yaml"
+    camera.write_text(yaml.safe_dump({**yaml.safe_load(camera.read_text()), "camera": {"source": "0"}}))
+    report = LatencyReport(
+        samples=150,
+        median_ms=84.0,
+        p99_ms=131.0,
+        stage_ms={},
+        image_period_ms=33.0,
+        late_on_average_ms=16.5,
+        clock_error_ms=0.5,
+        images=600,
+        read_images=590,
+        skipped_images=2,
+    )
+    screen = Screen(width_px=1280, height_px=800, period_ms=16.7)
+    result = LatencyResult(
+        at="2026-11-24T11:05:00Z",
+        made_by="ito",
+        camera=source_from_text("0").name,
+        width_px=1920,
+        height_px=1080,
+        rate_hz=30.0,
+        screen=screen,
+        report=report,
+    )
+    home.mkdir()
+    LatencyFile(home).put(result)
+    typed(*words, "--output", tmp_path / "certificate")
+    latency = json.loads((tmp_path / "certificate.json").read_bytes())["certificate"]["latency"]
+    assert (latency["p99_ms"], latency["uncertainty_ms"]) == (131.0, 17.0)
 
 
 def test_a_certificate_expires(certificate: Path) -> None:
