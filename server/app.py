@@ -15,6 +15,7 @@ from server.api.body_drain import BodyDrainMiddleware
 from server.api.body_limits import BodyLimitMiddleware
 from server.api.camera import camera_router
 from server.api.cases import cases_router
+from server.api.certificates import certificates_router
 from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router
 from server.api.documentation import DocumentedApi, documentation_router
@@ -279,6 +280,7 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(latency_router(parts.steps.latency))
         app.include_router(markers_router(parts.steps.markers, parts.store.home))
         app.include_router(tools_router(parts.steps.tool))
+        app.include_router(certificates_router(parts.steps.certificates, parts.store.home))
         app.include_router(ct_router(parts.steps.ct, parts.steps.ct_provider, parts.store.home))
         app.include_router(navigation_ct_router(parts.steps.navigation_ct))
         app.include_router(placements_router(parts.steps.placement))

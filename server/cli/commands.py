@@ -14,6 +14,7 @@ from server.cli.audit_commands import audit_app
 from server.cli.board_commands import board_app
 from server.cli.calibration.commands import add_calibration
 from server.cli.camera_commands import cameras
+from server.cli.certify_commands import certify_app
 from server.cli.latency_commands import latency_app
 from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
@@ -47,6 +48,7 @@ app.command()(pivot)
 app.command()(spin)
 app.command(name="tip-check")(tip_check)
 app.command(name="time-offset")(time_offset)
+app.add_typer(certify_app, name="certify")
 app.add_typer(plan_app, name="plan")
 app.add_typer(audit_app, name="audit")
 app.add_typer(latency_app, name="latency")

@@ -1,5 +1,7 @@
-"""Sheet as PDF 1.4: one page of filled polygons, lines and texts, in points of 1/72 inch."""
+"""Sheets as PDF 1.4: pages of filled polygons, lines and texts, in points of 1/72 inch."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 from server.printing.sheet import Disc, Fill, Line, Mark, Sheet
@@ -9,24 +11,56 @@ POINTS_PER_MM = 72.0 / 25.4
 ARC = 0.552284749831
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Attachment:
+    """A file inside of a PDF, which viewers show and save under its name."""
+
+    name: str
+    content: bytes
+
+
 def pdf_from_sheet(sheet: Sheet) -> bytes:
     """Return the PDF. Its page has the size of the sheet, and requests printing without scaling."""
+    return pdf_from_sheets([sheet])
+
+
+def pdf_from_sheets(sheets: Sequence[Sheet], *, attachment: Attachment | None = None) -> bytes:
+    """Return the PDF with a page for each sheet, the title of the first one, and an attached file."""
+    first_page = 4 if attachment is None else 6
+    kids = " ".join(f"{first_page + 2 * number} 0 R" for number in range(len(sheets)))
+    names = "" if attachment is None else " /Names << /EmbeddedFiles << /Names [(1) 4 0 R] >> >>"
+    objects = [
+        f"<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >>{names} >>".encode(),
+        f"<< /Type /Pages /Kids [{kids}] /Count {len(sheets)} >>".encode(),
+        b"<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>",
+    ]
+    if attachment is not None:
+        name = _string(attachment.name)
+        objects += [
+            f"<< /Type /Filespec /F {name} /EF << /F 5 0 R >> >>".encode("cp1252", errors="replace"),
+            _stream(attachment.content, b"/Type /EmbeddedFile "),
+        ]
+    for number, sheet in enumerate(sheets):
+        objects += _page(sheet, contents=first_page + 2 * number + 1)
+    return _file([*objects, b"<< /Title %s >>" % _string(sheets[0].title).encode("cp1252", errors="replace")])
+
+
+def _page(sheet: Sheet, *, contents: int) -> list[bytes]:
+    """Return the objects of a page: its description, and its contents under that number."""
     width, height = (POINTS_PER_MM * size for size in sheet.size_mm)
     # The matrix converts mm from the top to points from the bottom; all numbers below it are in mm.
     content = "\n".join(
         [f"{POINTS_PER_MM:.8f} 0 0 {-POINTS_PER_MM:.8f} 0 {height:.4f} cm", *map(_operators, sheet.marks)]
     ).encode("cp1252", errors="replace")
-    title = _string(sheet.title).encode("cp1252", errors="replace")
-    objects = [
-        b"<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
-        b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
-        f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {width:.4f} {height:.4f}] /Contents 5 0 R "
-        "/Resources << /Font << /F 4 0 R >> >> >>".encode(),
-        b"<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>",
-        b"<< /Length %d >>\nstream\n%s\nendstream" % (len(content), content),
-        b"<< /Title %s >>" % title,
+    return [
+        f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {width:.4f} {height:.4f}] /Contents {contents} 0 R "
+        "/Resources << /Font << /F 3 0 R >> >> >>".encode(),
+        _stream(content),
     ]
-    return _file(objects)
+
+
+def _stream(content: bytes, entries: bytes = b"") -> bytes:
+    return b"<< %s/Length %d >>\nstream\n%s\nendstream" % (entries, len(content), content)
 
 
 def _file(objects: list[bytes]) -> bytes:
@@ -55,7 +89,7 @@ def _operators(mark: Mark) -> str:
     if isinstance(mark, Fill):
         first, *others = (f"{x:.4f} {y:.4f}" for x, y in mark.corners_mm)
         lines = " ".join(f"{point} l" for point in others)
-        return f"{1 if mark.white else 0} g {first} m {lines} h f"
+        return f"{1 if mark.white else mark.grey_ratio:.4g} g {first} m {lines} h f"
     if isinstance(mark, Disc):
         return _circle(mark)
     if isinstance(mark, Line):

@@ -8,10 +8,17 @@ Point: TypeAlias = tuple[float, float]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fill:
-    """A polygon filled with black ink, or with the white of the paper."""
+    """A polygon filled with black or grey ink, or with the white of the paper.
+
+    Attributes:
+        corners_mm: Corners in order.
+        white: Whether it is white.
+        grey_ratio: Brightness of the ink, from black (0) to white (1).
+    """
 
     corners_mm: tuple[Point, ...]
     white: bool = False
+    grey_ratio: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

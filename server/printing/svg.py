@@ -21,7 +21,7 @@ def svg_from_sheet(sheet: Sheet) -> str:
 def _element(mark: Mark) -> str:
     if isinstance(mark, Fill):
         points = " ".join(f"{x:.4f},{y:.4f}" for x, y in mark.corners_mm)
-        return f'<polygon points="{points}" fill="{"white" if mark.white else "black"}"/>'
+        return f'<polygon points="{points}" fill="{_colour(mark)}"/>'
     if isinstance(mark, Disc):
         (x, y), radius = mark.centre_mm, mark.radius_mm
         return f'<circle cx="{x:.4f}" cy="{y:.4f}" r="{radius:.4f}" fill="black"/>'
@@ -36,3 +36,10 @@ def _element(mark: Mark) -> str:
         f'<text x="{x:.4f}" y="{y:.4f}" font-family="Helvetica, Arial, sans-serif" '
         f'font-size="{mark.size_mm:g}">{escape(mark.text)}</text>'
     )
+
+
+def _colour(mark: Fill) -> str:
+    if mark.white or mark.grey_ratio == 0.0:
+        return "white" if mark.white else "black"
+    level = round(255 * mark.grey_ratio)
+    return f"rgb({level},{level},{level})"

@@ -10,10 +10,13 @@ import structlog
 
 from server.alarms import ProcedureFacts
 from server.capture.address import SourceKind, source_from_text
+from server.certificate import InstalledCertificates
 from server.config import Config
+from server.installation import product_version
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
+from server.procedure.certificates import CertificateStep
 from server.procedure.confirmation_step import ConfirmStep
 from server.procedure.ct import CtProvider, CtStep
 from server.procedure.drill_reference import DrillReferenceBuilder
@@ -53,6 +56,7 @@ class Steps:
         camera: calibrates the camera.
         readout: measures the readout time of the camera.
         latency: measures the latency from the scene to the page.
+        certificates: whether the accuracy of the tools in use is certified.
         markers: stores images of markers.
         tool: calibrates tools.
         ct: imports a CT.
@@ -70,6 +74,7 @@ class Steps:
     camera: CameraStep
     readout: ReadoutStep
     latency: LatencyStep
+    certificates: CertificateStep
     markers: MarkerStep
     tool: ToolStep
     ct: CtStep
@@ -138,6 +143,12 @@ class Steps:
                 file=latencies,
                 camera=defaults.source,
                 on_result=setup_publisher.refresh,
+            ),
+            certificates=CertificateStep(
+                hub=hub,
+                installed=InstalledCertificates(store.home.folder),
+                markers=marker_step,
+                software_version=product_version(),
             ),
             markers=marker_step,
             tool=_tool_step(hub, store, config, marker_step),

@@ -40,6 +40,7 @@ GET     /api/procedure
 GET     /api/navigation/ct
 GET     /api/navigation/placements
 GET     /api/latency
+GET     /api/certificates
 GET     /video/{camera}.mjpg
 GET     /api/supervision/room
 GET     /api/supervision/signatures
@@ -90,6 +91,8 @@ GET     /api/camera/calibration
 GET     /api/camera/readout
 GET     /api/camera/readout/collection
 GET     /api/latency/measurement
+GET     /api/certificates/{marker}/json
+GET     /api/certificates/{marker}/pdf
 GET     /api/markers
 GET     /api/markers/{name}/picture
 GET     /api/tools
@@ -174,6 +177,7 @@ POST    /api/camera/readout/measurement
 POST    /api/latency/measurement
 DELETE  /api/latency/measurement
 POST    /api/latency/measurement/conclusion
+POST    /api/certificates
 POST    /api/markers
 DELETE  /api/markers/{name}
 POST    /api/tools/collection

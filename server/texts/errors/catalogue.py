@@ -6,6 +6,7 @@ from itertools import product
 from server.texts.errors.access import ACCESS
 from server.texts.errors.camera import CAMERA
 from server.texts.errors.cases import CASES
+from server.texts.errors.certificate import CERTIFICATE
 from server.texts.errors.procedure import PROCEDURE
 from server.texts.errors.recordings import RECORDINGS
 from server.texts.errors.registration import REGISTRATION
@@ -62,6 +63,7 @@ _PARTS = (
     RECORDINGS,
     CASES,
     ACCESS,
+    CERTIFICATE,
 )
 MESSAGES: Mapping[str, tuple[Text, ...]] = {
     code: tuple(text for part in _PARTS for text in part.get(code, ()))

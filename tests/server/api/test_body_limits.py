@@ -55,8 +55,9 @@ def test_as_much_as_is_taken_is_read(house: Guarded) -> None:
         assert answer.json()["code"] != "BODY_TOO_LARGE"
 
 
-# Markups of a few points: files, and no larger than any other body.
+# Markups of a few points and certificates: files, and no larger than any other body.
 OF_GENERAL_LIMIT = {
+    "/api/certificates",
     "/api/plan/vertebrae/{name}/landmarks/import",
     "/api/plan/vertebrae/{name}/channels/{side}/import",
 }

@@ -1,9 +1,11 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { formatNumber } from "../live/rounding";
+import { useCertificates } from "../rest/useCertificates";
 import { useLatency } from "../rest/useLatency";
 import { useTexts } from "../texts/TextsContext";
 import { cameraFacts } from "./cameraFacts";
+import { certificateText } from "./certificateText";
 import { latencyText } from "./latencyText";
 import { serverStateOf } from "./serverState";
 import { Pane } from "./Pane";
@@ -17,6 +19,7 @@ export function DetailsPane(): ReactNode {
   const { view, dashboard } = useLive();
   const { source, snapshot } = serverStateOf(view);
   const latency = useLatency().data;
+  const certificates = useCertificates().data;
   const d = texts.details;
   const h = texts.header;
   const searchMs = snapshot === null ? null : searchTimeMs(snapshot.stage_ms);
@@ -28,6 +31,11 @@ export function DetailsPane(): ReactNode {
       texts.latency.lightToPage,
       latency === null ? NONE : latencyText(latency, texts.latency),
       "light-to-page",
+    ],
+    [
+      texts.certificate.accuracy,
+      certificates === null ? NONE : certificateText(certificates, texts.certificate),
+      "certified",
     ],
     [d.images, String(source?.images ?? NONE)],
     [d.skipped, String(snapshot?.skipped_images ?? source?.skipped_images ?? NONE)],

@@ -7,6 +7,7 @@ import type { CameraTexts } from "./camera/en";
 import type { CaseTexts } from "./case/en";
 import type { CheckTexts } from "./check/en";
 import type { SignInTexts } from "./signin/en";
+import type { CertificateTexts } from "./certificate/en";
 import type { LatencyTexts } from "./latency/en";
 import type { ConnectionTexts } from "./connection/en";
 import type { MarksTexts } from "./marks/en";
@@ -126,6 +127,7 @@ export interface Texts {
   theatre: TheatreTexts;
   case: CaseTexts;
   camera: CameraTexts;
+  certificate: CertificateTexts;
   latency: LatencyTexts;
   tool: ToolTexts;
   people: PeopleTexts;

@@ -4,6 +4,7 @@ import { cameraDe } from "./camera/de";
 import { caseDe } from "./case/de";
 import { checkDe } from "./check/de";
 import { signInDe } from "./signin/de";
+import { certificateDe } from "./certificate/de";
 import { latencyDe } from "./latency/de";
 import { connectionDe } from "./connection/de";
 import { navigateDe } from "./navigate/de";
@@ -165,6 +166,7 @@ export const de: Texts = {
   theatre: theatreDe,
   case: caseDe,
   camera: cameraDe,
+  certificate: certificateDe,
   latency: latencyDe,
   tool: toolDe,
   people: peopleDe,

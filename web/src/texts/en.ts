@@ -4,6 +4,7 @@ import { cameraEn } from "./camera/en";
 import { caseEn } from "./case/en";
 import { checkEn } from "./check/en";
 import { signInEn } from "./signin/en";
+import { certificateEn } from "./certificate/en";
 import { latencyEn } from "./latency/en";
 import { connectionEn } from "./connection/en";
 import { navigateEn } from "./navigate/en";
@@ -167,6 +168,7 @@ export const en: Texts = {
   theatre: theatreEn,
   case: caseEn,
   camera: cameraEn,
+  certificate: certificateEn,
   latency: latencyEn,
   tool: toolEn,
   people: peopleEn,

@@ -3,6 +3,7 @@
 from server.texts.errors.remedies.access import ACCESS
 from server.texts.errors.remedies.camera import CAMERA
 from server.texts.errors.remedies.cases import CASES
+from server.texts.errors.remedies.certificate import CERTIFICATE
 from server.texts.errors.remedies.procedure import PROCEDURE
 from server.texts.errors.remedies.recordings import RECORDINGS
 from server.texts.errors.remedies.registration import REGISTRATION
@@ -17,4 +18,5 @@ REMEDIES: tuple[Text, ...] = (
     *RECORDINGS,
     *CASES,
     *ACCESS,
+    *CERTIFICATE,
 )

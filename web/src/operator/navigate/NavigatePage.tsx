@@ -8,6 +8,7 @@ import { VideoPane } from "../../panes/VideoPane";
 import { useProcedure } from "../../app/procedure";
 import { SetupCheckNote } from "../SetupCheckNote";
 import { RehearsalStrip } from "../registration/RehearsalStrip";
+import { CertificateNote } from "./CertificateNote";
 import { ChannelSwitch } from "./ChannelSwitch";
 import { Gates } from "./Gates";
 import { MovementWarning } from "./MovementWarning";
@@ -22,6 +23,7 @@ export function NavigatePage(): ReactNode {
       <MovementWarning />
       <Gates />
       <SetupCheckNote />
+      <CertificateNote />
       <div className="board">
         <AfterFirstMessage loading={<LoadingNumbers />}>
           <NumbersPane />

@@ -9,6 +9,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { useDocuments } from "../parts/useDocuments";
 import { useGates } from "../parts/useGates";
 import { useProcedure } from "../../app/procedure";
+import { CertificateCard } from "./CertificateCard";
 import { PoseCollection } from "./PoseCollection";
 import type { Purpose } from "./toolRecord";
 import { NewTool } from "./NewTool";
@@ -44,7 +45,13 @@ export function ToolPage(): ReactNode {
   if (gates.data === null) return <QueryStatus query={gates} />;
   if (procedure.data === null && procedure.rejection === null) return <QueryStatus query={procedure} />;
   const gate = gates.data.tool_calibration;
-  if (procedure.data?.case_id === null) return <p className="card-lead">{texts.noCase}</p>;
+  if (procedure.data?.case_id === null)
+    return (
+      <div className="cards">
+        <p className="card-lead">{texts.noCase}</p>
+        <CertificateCard />
+      </div>
+    );
   return (
     <div className="beside">
       <div className="cards">
@@ -70,6 +77,7 @@ export function ToolPage(): ReactNode {
               busy={beginning.busy}
               onBegin={begin}
             />
+            <CertificateCard />
           </>
         )}
       </div>

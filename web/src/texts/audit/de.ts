@@ -54,6 +54,7 @@ export const auditDe: AuditTexts = {
     "POST /api/latency/measurement": "Hat begonnen, die Verzögerung zu messen",
     "DELETE /api/latency/measurement": "Hat das Messen der Verzögerung beendet",
     "POST /api/latency/measurement/conclusion": "Hat die Verzögerung gemessen",
+    "POST /api/certificates": "Hat ein Genauigkeitszertifikat installiert",
     "POST /api/markers": "Hat das Bild eines Markers gesendet",
     "DELETE /api/markers/{name}": "Hat einen Marker entfernt",
     "POST /api/tools/collection": "Hat begonnen, ein Instrument zu kalibrieren oder zu prüfen",

@@ -53,6 +53,7 @@ export const auditEn = {
     "POST /api/latency/measurement": "Began to measure the latency",
     "DELETE /api/latency/measurement": "Ended measuring the latency",
     "POST /api/latency/measurement/conclusion": "Measured the latency",
+    "POST /api/certificates": "Installed an accuracy certificate",
     "POST /api/markers": "Sent a marker’s picture",
     "DELETE /api/markers/{name}": "Removed a marker",
     "POST /api/tools/collection": "Began to calibrate or check a tool",

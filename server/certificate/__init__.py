@@ -1,0 +1,50 @@
+"""Accuracy certificates: plate file, content, signature, validity, and pages to print."""
+
+from server.certificate.content import (
+    Certificate,
+    CertifiedAudit,
+    ExaminedSystem,
+    Issue,
+    certificate_of,
+    certified_faults,
+    certified_figures,
+    tracked_tool_of,
+)
+from server.certificate.installed import InstalledCertificates
+from server.certificate.plate_file import PlateFile, text_of_plate_file
+from server.certificate.sheets import certificate_pdf, certificate_sheets, fault_rows, figure_rows
+from server.certificate.signature import SigningKey, existing_signer
+from server.certificate.validity import (
+    CameraInUse,
+    SystemInUse,
+    ToolInUse,
+    VerifiedCertificate,
+    invalidities,
+    verified,
+)
+
+__all__ = [
+    "CameraInUse",
+    "Certificate",
+    "CertifiedAudit",
+    "ExaminedSystem",
+    "InstalledCertificates",
+    "Issue",
+    "PlateFile",
+    "SigningKey",
+    "SystemInUse",
+    "ToolInUse",
+    "VerifiedCertificate",
+    "certificate_of",
+    "certificate_pdf",
+    "certificate_sheets",
+    "certified_faults",
+    "certified_figures",
+    "existing_signer",
+    "fault_rows",
+    "figure_rows",
+    "invalidities",
+    "text_of_plate_file",
+    "tracked_tool_of",
+    "verified",
+]
