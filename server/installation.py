@@ -83,14 +83,6 @@ def place_code_cache(environment: MutableMapping[str, str], record: str | None) 
             return
 
 
-def product_version() -> str:
-    """Return the installed version; "unknown" if the package is not installed."""
-    try:
-        return version("coaxial")
-    except PackageNotFoundError:
-        return "unknown"
-
-
 def installed_record() -> str | None:
     """Return the text of the distribution's RECORD; None if Coaxial is not installed."""
     try:

@@ -12,8 +12,8 @@ from playwright.sync_api import Browser, sync_playwright
 # Set before NumPy is loaded, whose threads spin while waiting: workers use the cores already.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-# Number of new objects after which Python collects garbage; usually 700. Hundreds of applications are made, of many
-# objects that stay until the end of a test: searching them took a seventh of the time of tests/procedure.
+# Number of new objects after which Python collects garbage; usually 700. Hundreds of applications are made,
+# whose objects stay until the end of a test: searching them took a seventh of the time of tests/procedure.
 gc.set_threshold(100_000)
 
 CHECKOUT = Path(__file__).resolve().parents[1]

@@ -3,7 +3,6 @@
 import gc
 import sys
 from enum import StrEnum
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Annotated
 
@@ -25,10 +24,9 @@ from server.cli.time_offset_commands import time_offset
 from server.cli.tool_commands import pivot, spin, tip_check
 from server.cli.track_help import TRACK_HELP
 from server.cli.verify_commands import verify
-from server.installation import default_settings, prepare_process, service_unit
+from server.installation import default_settings, prepare_process, product_version, service_unit
 
 BAD_INPUT = 2
-UNKNOWN_VERSION = "0.1.0"
 
 app = typer.Typer(
     name="coaxial",
@@ -111,7 +109,7 @@ def coaxial(
 ) -> None:
     """Coaxial: navigation for pedicle-screw surgery by video. Research software, not a medical device."""
     if show_version:
-        typer.echo(f"Coaxial {coaxial_version()}")
+        typer.echo(f"Coaxial {product_version()}")
         raise typer.Exit
 
 
@@ -243,14 +241,6 @@ def service_file() -> None:
         if any(needed.is_relative_to(home) for home in (Path.home(), Path("/home"), Path("/root"))):
             typer.echo(f"Warning: {needed} is in a home folder, which the service cannot read.", err=True)
     typer.echo(service_unit(executable), nl=False)
-
-
-def coaxial_version() -> str:
-    """Return the installed version."""
-    try:
-        return version("coaxial")
-    except PackageNotFoundError:
-        return UNKNOWN_VERSION
 
 
 def main() -> None:

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 import structlog
 import typer
 
-from server.cli.commands import coaxial_version
 from server.cli.options import SettingOptions, config_from_options
 from server.cli.stop_signal import StopSignal
 from server.config import Config
 from server.errors import ConfigError
+from server.installation import product_version
 from server.logs import LogSettings, configure_logging
 from server.security.addresses import link_name
 from server.security.tls import reject_unsafe
@@ -106,7 +106,7 @@ def _serve(
             store=storage.store,
             config=config,
             log_settings=settings,
-            product_version=coaxial_version(),
+            product_version=product_version(),
         )
         ending.callback(recordings.close)
         sinks = Sinks(config.plugins.sinks, tracked.hub, settings)
@@ -193,7 +193,7 @@ def _ready(
     # A full collection of all modules takes a tenth of a second, in which no figures are sent.
     gc.freeze()
     gc.enable()
-    typer.echo(f"Coaxial {coaxial_version()} · research software, not a medical device")
+    typer.echo(f"Coaxial {product_version()} · research software, not a medical device")
     host, port = listener.getsockname()[:2]
     for line in lines_for(f"{link_name(host)}:{port}"):
         typer.echo(line)

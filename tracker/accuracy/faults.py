@@ -172,7 +172,7 @@ def _whitening(fit: PlateFit, plate: DivotPlate, sensitivities: Sequence[TipSens
     else:
         noise = shapes * float((fit.residuals_mm**2).sum() / np.trace(shapes, axis1=1, axis2=2).sum())
     noise = noise + (MIN_SD_MM**2 + plate.sd_mm**2) * np.eye(3)
-    return np.asarray(np.linalg.inv(np.linalg.cholesky(noise)))
+    return np.asarray(np.linalg.inv(np.linalg.cholesky(noise)), dtype=float)
 
 
 def _fitted(fit: PlateFit, columns: Array, whitening: Array, chosen: tuple[int, ...]) -> _Fitted:

@@ -64,7 +64,7 @@ def pose_from_corner_shift(camera: CameraModel, side_mm: float, pose: Rigid[Came
         (camera.px_from_camera(points + step) - camera.px_from_camera(points - step)).ravel() / (2.0 * size)
         for step, size in zip(steps, sizes, strict=True)
     ]
-    return np.asarray(np.linalg.pinv(np.stack(columns, axis=1)))
+    return np.asarray(np.linalg.pinv(np.stack(columns, axis=1)), dtype=float)
 
 
 def tip_sensitivity(tool: TrackedTool, pose: Rigid[Camera, Marker]) -> TipSensitivity:
