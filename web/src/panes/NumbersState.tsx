@@ -10,7 +10,7 @@ import { setData, setText } from "./setText";
 import { errorText, lagText, riskText, TONE_SYMBOL } from "./verdictText";
 
 /** Headline and detail of the displayed figures, or why there are none. */
-export function NumbersState(): ReactNode {
+export function NumbersState({ children }: { children?: ReactNode }): ReactNode {
   const texts = useTexts();
   const { view } = useLive();
   const headline = useRef<HTMLParagraphElement>(null);
@@ -45,6 +45,7 @@ export function NumbersState(): ReactNode {
       <p className="state-event" data-testid="headline-event" ref={event} />
       <p className="state-ahead" data-testid="ahead" ref={risk} />
       <p className="state-ahead" data-testid="tip" ref={error} />
+      {children}
     </div>
   );
 }
