@@ -6,6 +6,7 @@ import { formatDuration } from "../live/rounding";
 import type { Texts } from "../texts/en";
 import { textOf } from "../texts/text";
 import { useTexts } from "../texts/TextsContext";
+import { ProposedChannel } from "./ProposedChannel";
 import { setData, setText } from "./setText";
 import { errorText, lagText, riskText, TONE_SYMBOL } from "./verdictText";
 
@@ -45,6 +46,7 @@ export function NumbersState({ children }: { children?: ReactNode }): ReactNode 
       <p className="state-event" data-testid="headline-event" ref={event} />
       <p className="state-ahead" data-testid="ahead" ref={risk} />
       <p className="state-ahead" data-testid="tip" ref={error} />
+      <ProposedChannel />
       {children}
     </div>
   );
