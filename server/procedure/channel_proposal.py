@@ -49,7 +49,7 @@ class ChannelProposer:
         try:
             channels = self._placement.channels()
         except NavigationError:
-            # Without a case or a plan there is nothing to propose; an unreadable plan is reported by its step.
+            # Without a case or a plan there is nothing to propose; its step reports an unreadable plan.
             return _Planned()
         return _Planned(
             active=next((one.channel for one in channels if one.is_active), None),
