@@ -140,6 +140,28 @@ def test_the_supervisor_s_view_while_it_is_live(opened: Callable[..., Page]) -> 
         assert faults(page) == []
 
 
+def test_the_light_theme(opened: Callable[..., Page], shared_theatre: Theatre) -> None:
+    page = opened("/operator/navigate")
+    page.emulate_media(color_scheme="light")
+    shared_theatre.tell("near")
+    for path in ("/operator/navigate", "/supervisor"):
+        opened(path)
+        expect(page.locator("html")).to_have_attribute("data-theme", "light")
+        over = page.locator("[data-reading=wall]")
+        expect(over).to_have_attribute("data-status", "over", timeout=PATIENCE_MS)
+        assert faults(page) == []
+    page.get_by_test_id("theme").click()
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+    # Stored in the browser; theatre has a choice of its own.
+    page.reload()
+    expect(page.get_by_test_id("theme")).to_be_visible(timeout=PATIENCE_MS)
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+    page.evaluate("localStorage.clear()")
+    opened("/theatre")
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+    page.emulate_media(color_scheme="dark")
+
+
 def small_targets(page: Page) -> list[str]:
     """Buttons and links of the shell smaller than 48 px, which a glove would miss."""
     found: list[str] = page.evaluate(

@@ -4,6 +4,7 @@ import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
 import { RecordControl } from "../recording/RecordControl";
 import { useTexts } from "../texts/TextsContext";
+import { ThemeButton } from "../theme/ThemeButton";
 import { useProcedure } from "../app/procedure";
 
 /** Header: open case, state of tracking, camera and server, and links to the other views. */
@@ -20,6 +21,7 @@ export function OperatorTop(): ReactNode {
       </p>
       <RecordControl />
       <LiveStatus withTracking />
+      <ThemeButton />
       <ViewSwitch />
     </header>
   );

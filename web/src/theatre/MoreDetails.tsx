@@ -6,6 +6,7 @@ import { DetailsPane } from "../panes/DetailsPane";
 import { MarkersPane } from "../panes/MarkersPane";
 import { RecordingState } from "../recording/RecordingState";
 import { useTexts } from "../texts/TextsContext";
+import { ThemeButton } from "../theme/ThemeButton";
 import { LayoutSettings } from "./layouts/LayoutSettings";
 import type { Layouts } from "./layouts/useLayouts";
 
@@ -28,6 +29,7 @@ export function MoreDetails({ layouts }: { layouts: Layouts }): ReactNode {
         <div className="more-tools">
           <ViewSwitch />
           <PictureSize />
+          <ThemeButton />
           <RecordingState testId="recording-more" />
           <SignedIn />
         </div>
