@@ -4,7 +4,6 @@ import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
 import { RecordControl } from "../recording/RecordControl";
 import { useTexts } from "../texts/TextsContext";
-import { ThemeButton } from "../theme/ThemeButton";
 import { useProcedure } from "../app/procedure";
 
 /** Header: open case, state of tracking, camera and server, and links to the other views. */
@@ -21,7 +20,6 @@ export function OperatorTop(): ReactNode {
       </p>
       <RecordControl />
       <LiveStatus withTracking />
-      <ThemeButton />
       <ViewSwitch />
     </header>
   );
