@@ -35,6 +35,7 @@ import "./theme/alarms.css";
 import "./theme/shell.css";
 import "./theme/signin.css";
 import "./theme/theatre.css";
+import "./theme/layouts.css";
 import "./theme/operator.css";
 import "./theme/restart.css";
 import "./theme/case.css";

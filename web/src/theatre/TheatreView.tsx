@@ -26,9 +26,9 @@ export function TheatreView(): ReactNode {
   const { session } = useSession();
   // Alarms are acknowledged on a theatre screen; other viewers only see them.
   const answersAlarms = session.state === "in" && ANSWERING.has(session.who.role);
-  const layouts = useLayouts();
   const isFigures = isFiguresScreen(location.search);
   const isWide = useIsWide();
+  const layouts = useLayouts(isWide && !isFigures);
   // A smaller screen has one layout.
   const layout = isWide ? layouts.layout : "overview";
   return (

@@ -17,7 +17,8 @@ export interface Layouts {
   setKeys: (keys: Keys) => void;
 }
 
-export function useLayouts(): Layouts {
+/** @param hasLayouts whether this screen has them; another one follows nothing and takes no keys. */
+export function useLayouts(hasLayouts: boolean): Layouts {
   const [choice, setChoice] = useState(() => {
     const stored = storedLayout();
     const layout = layoutInAddress(location.search);
@@ -34,13 +35,13 @@ export function useLayouts(): Layouts {
   };
 
   usePainter((view) => {
-    if (!choice.isAutomatic) return;
+    if (!hasLayouts || !choice.isAutomatic) return;
     const alarms = alarmsVerdict(view, view.firstMessage === "received");
     const layout = follower.update({ ...view, alarms }, choice.layout);
     if (layout !== null) change({ layout });
   });
   useKeys((event) => {
-    const layout = layoutByKey(event, choice.keys, choice.layout);
+    const layout = hasLayouts ? layoutByKey(event, choice.keys, choice.layout) : null;
     if (layout !== null) choose(layout);
     return layout !== null;
   });
