@@ -24,12 +24,12 @@ test.each<[string, number, number, Layout, string]>([
 });
 
 /** Live figures of a drill at this depth on the axis. */
-function at(depth_mm: number, entry: number | null = 1): NumbersVerdict {
+function at(depth_mm: number, entry: number | null = 1, wall = figure(1.8, { limit: 1 })): NumbersVerdict {
   const image = snapshot();
   const [tool] = image.tools;
   if (tool?.deviation.kind !== "deviation") throw new Error("the builder's tool has a deviation");
   const deviation = { ...tool.deviation, depth_mm, tip_offset_mm: 0 };
-  const tools = [{ ...tool, deviation, assessment: assessment({}, { entry: figure(entry) }) }];
+  const tools = [{ ...tool, deviation, assessment: assessment({}, { entry: figure(entry), wall }) }];
   const reading = readingOf({ ...image, tools }, headline());
   if (!reading.known) throw new Error("the builder's figures are known");
   return { live: true, reading, imageNumber: 1, ageMs: 0, snapshot: image };
@@ -49,6 +49,13 @@ test("follows the drill only after it has stayed in its phase", () => {
   expect(update(1000, 5)).toBeNull();
   expect(update(1999, 5)).toBeNull();
   expect(update(2000, 5)).toBe("drill");
+});
+
+test("follows a drill outside the bone, where there is no wall", () => {
+  const follower = new PhaseFollower();
+  const numbers = at(-50, 1, figure(null, { status: "outside" }));
+  follower.update({ nowMs: 0, numbers, alarms: QUIET }, "overview");
+  expect(follower.update({ nowMs: 1000, numbers, alarms: QUIET }, "overview")).toBe("approach");
 });
 
 test.each([
