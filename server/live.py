@@ -18,6 +18,7 @@ from tracker.camera import CameraControl, LampFlicker
 from tracker.errors import NavigationError
 from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import QUIET, AlarmSnapshot
+from tracker.plan.pedicle import Side
 
 # V4L2_EXPOSURE_MANUAL, and the unit of V4L2_CID_EXPOSURE_ABSOLUTE.
 EXPOSURE_FIXED, V4L2_EXPOSURE_UNIT_MS = 1, 0.1
@@ -163,6 +164,21 @@ class ProcessStatus:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ProposedChannel:
+    """Another planned channel, to which the drill is nearer than to the active one.
+
+    Attributes:
+        vertebra: Name of the vertebra in the plan.
+        side: Side of the patient.
+        is_registered: Whether the vertebra has a valid registration.
+    """
+
+    vertebra: str
+    side: Side
+    is_registered: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Instant:
     """The published state of one moment.
 
@@ -176,6 +192,7 @@ class Instant:
         jpeg: A picture to show instead of the image with overlay, if there is one; empty for images of a
             source, whose overlay is drawn on demand (`server/stream/scaling`).
         alarms: Alarms, including this image.
+        proposed_channel: Channel that is proposed with this image; None for none.
     """
 
     sequence: int
@@ -185,6 +202,7 @@ class Instant:
     image: npt.NDArray[np.uint8] | None = None
     jpeg: bytes = b""
     alarms: AlarmSnapshot = QUIET
+    proposed_channel: ProposedChannel | None = None
 
     @property
     def is_stopped(self) -> bool:

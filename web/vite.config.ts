@@ -16,6 +16,8 @@ export default defineConfig({
   },
   test: {
     environment: "node",
+    // Their contrast is tested.
+    css: { include: [/tokens\.css/] },
     include: ["src/**/*.test.ts", "src/**/*.test.tsx"],
     setupFiles: "src/testLocation.ts",
     // Test files share one copy of the modules, because importing React and Mantine for each took four fifths of the

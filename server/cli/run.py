@@ -131,7 +131,11 @@ def _serve(
         )
         recordings.follow()
         sinks.start()
-        tracked.publish(check_alarms=alarms.observe, picture_problem=picture_problem_of(app))
+        tracked.publish(
+            check_alarms=alarms.observe,
+            picture_problem=picture_problem_of(app),
+            propose_channel=steps.channel_proposer.observe,
+        )
         serve_until(
             app,
             listener,

@@ -17,13 +17,23 @@ import numpy.typing as npt
 import structlog
 
 from server.alarms import without_alarms
-from server.live import Instant, LiveHub, Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
+from server.live import (
+    Instant,
+    LiveHub,
+    Problem,
+    ProcessState,
+    ProcessStatus,
+    ProposedChannel,
+    SourceState,
+    SourceStatus,
+)
 from server.loop.report import Report, ReportUnpacker
 from server.loop.shared_status import ProcessView, SharedStatus
 from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import QUIET, AlarmSnapshot
 
 Image: TypeAlias = npt.NDArray[np.uint8]
+ChannelProposal: TypeAlias = Callable[[NavigationSnapshot], ProposedChannel | None]
 AlarmCheck: TypeAlias = Callable[[NavigationSnapshot | None, SourceStatus, ProcessStatus], AlarmSnapshot]
 HEARTBEAT_S = 0.9
 TICK_S = 0.05
@@ -35,10 +45,11 @@ log = structlog.get_logger(__name__)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PublishedImage:
-    """An image with its snapshot; both are None without an image."""
+    """An image with its snapshot and the channel proposed with it; all are None without an image."""
 
     snapshot: NavigationSnapshot | None = None
     image: Image | None = None
+    proposed_channel: ProposedChannel | None = None
 
 
 class Publisher:
@@ -51,7 +62,9 @@ class Publisher:
         hub: LiveHub,
         check_alarms: AlarmCheck = without_alarms,
         picture_problem: Callable[[], Problem | None] = lambda: None,
+        propose_channel: ChannelProposal = lambda _: None,
     ) -> None:
+        self._propose_channel = propose_channel
         self._shared = status
         self._hub = hub
         self._picture_problem = picture_problem
@@ -104,7 +117,10 @@ class Publisher:
         self._problem = report.problem
         snapshot = None if image is None else report.snapshot
         self._update_alarms(snapshot, report.source)
-        shown = PublishedImage() if snapshot is None else PublishedImage(snapshot=snapshot, image=image)
+        shown = PublishedImage()
+        if snapshot is not None:
+            proposed = self._propose_channel(snapshot)
+            shown = PublishedImage(snapshot=snapshot, image=image, proposed_channel=proposed)
         now = self._shared.current
         if now.generation != current.generation:
             # The process died while its image was processed.
@@ -167,6 +183,7 @@ class Publisher:
             snapshot=shown.snapshot,
             image=shown.image,
             alarms=self._alarms,
+            proposed_channel=shown.proposed_channel,
         )
         self._shown = shown
         self._sequence += 1

@@ -9,7 +9,7 @@ from server.config import Config
 from server.live import LiveHub, Problem
 from server.logs import LogSettings
 from server.loop.phone_inbox import PhoneInbox
-from server.loop.publisher import AlarmCheck, Publisher
+from server.loop.publisher import AlarmCheck, ChannelProposal, Publisher
 from server.loop.ring import RECORDED_SLOTS, SLOTS
 from server.loop.shared_status import ProcessView, SharedStatus
 from server.loop.staging import SceneOrder
@@ -50,10 +50,15 @@ class TrackingSystem:
         *,
         check_alarms: AlarmCheck = without_alarms,
         picture_problem: Callable[[], Problem | None] = lambda: None,
+        propose_channel: ChannelProposal = lambda _: None,
     ) -> None:
         """Start publishing; `picture_problem` returns why no picture can be drawn, or None."""
         self._publisher = Publisher(
-            status=self._status, hub=self.hub, check_alarms=check_alarms, picture_problem=picture_problem
+            status=self._status,
+            hub=self.hub,
+            check_alarms=check_alarms,
+            picture_problem=picture_problem,
+            propose_channel=propose_channel,
         )
         self._publisher.start()
 

@@ -35,6 +35,7 @@ from tracker.navigation import (
 from tracker.navigation.clearance import NearestWall
 from tracker.navigation.directions import Wall
 from tracker.navigation.figures import rounded_down
+from tracker.plan import Channel
 from tracker.plan.document import PlannedChannel
 from tracker.plan.document.changes import channel_name, channel_of, vertebra_named
 from tracker.plan.pedicle import Side
@@ -134,6 +135,7 @@ class ChannelState:
 
     Attributes:
         vertebra, side: of the channel.
+        channel: as planned.
         screw: the planned one; None if none is planned.
         is_active: whether it is the active channel.
         is_registered: whether its vertebra has a valid registration.
@@ -142,6 +144,7 @@ class ChannelState:
 
     vertebra: str
     side: Side
+    channel: Channel
     screw: ScrewSize | None
     is_active: bool
     is_registered: bool
@@ -200,6 +203,7 @@ class PlacementStep:
             ChannelState(
                 vertebra=vertebra.name,
                 side=channel.side,
+                channel=channel.channel,
                 screw=_planned_screw(channel),
                 is_active=active is not None
                 and (active.vertebra, active.side) == (vertebra.name, channel.side),

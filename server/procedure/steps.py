@@ -17,6 +17,7 @@ from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
 from server.procedure.certificates import CertificateStep
+from server.procedure.channel_proposal import ChannelProposer
 from server.procedure.confirmation_step import ConfirmStep
 from server.procedure.ct import CtProvider, CtStep
 from server.procedure.drill_reference import DrillReferenceBuilder
@@ -68,6 +69,7 @@ class Steps:
         registration: registers the vertebra on the patient.
         confirm: confirms a registration after a restart.
         placement: stores where screws were placed.
+        channel_proposer: proposes another channel that the drill is nearer to.
         setup_check: whether the planned screw can be navigated with the registration.
     """
 
@@ -86,6 +88,7 @@ class Steps:
     registration: RegistrationSteps
     confirm: ConfirmStep
     placement: PlacementStep
+    channel_proposer: ChannelProposer
     setup_check: SetupChecker
 
     @classmethod
@@ -134,6 +137,17 @@ class Steps:
         surface = SurfaceStep(store=store, jobs=jobs, ct_provider=ct_provider)
         plan = PlanStep(store=store, jobs=jobs, ct_provider=ct_provider, config=config.plan)
         registration = _registration(hub, store, config, procedure, defaults, plan=plan, surface=surface)
+        placement = PlacementStep(
+            hub=hub,
+            store=store,
+            plans=plan.repository,
+            registrations=registration.repository,
+            run=procedure.run,
+            max_age_s=config.limits.video_stale_after_ms / 1000.0,
+        )
+        channel_proposer = ChannelProposer(placement)
+        store.add_commit_listener(channel_proposer.refresh)
+        channel_proposer.refresh()
         return cls(
             camera=_camera_step(hub, store, jobs, config, defaults),
             readout=ReadoutStep(hub=hub, store=store, jobs=jobs, source=defaults.source),
@@ -162,14 +176,8 @@ class Steps:
             procedure=procedure,
             registration=registration,
             confirm=ConfirmStep(hub=hub, store=store, procedure=procedure),
-            placement=PlacementStep(
-                hub=hub,
-                store=store,
-                plans=plan.repository,
-                registrations=registration.repository,
-                run=procedure.run,
-                max_age_s=config.limits.video_stale_after_ms / 1000.0,
-            ),
+            placement=placement,
+            channel_proposer=channel_proposer,
             setup_check=SetupChecker(store=store, defaults=defaults, tools=tools, catalogue=plan.catalogue),
         )
 

@@ -34,6 +34,7 @@ from server.texts import (
     requested_language,
 )
 from tracker.errors import NavigationError
+from tracker.plan.pedicle import Side
 
 
 class ProblemMessage(Message):
@@ -124,6 +125,15 @@ class LiveEnvelope(Message):
     pixels in the message are those of the camera's image."""
 
 
+class ProposedChannelMessage(Message):
+    """Another planned channel, to which the drill is nearer than to the active one."""
+
+    vertebra: str
+    side: Side
+    is_registered: bool
+    """Whether its vertebra has a valid registration."""
+
+
 class LiveContent(Message):
     """The fields of a live message that all viewers share."""
 
@@ -137,6 +147,8 @@ class LiveContent(Message):
     """Of this image and its alarms."""
     alarms: AlarmsMessage
     """Evaluated with this image."""
+    proposed_channel: ProposedChannelMessage | None
+    """Null while the drill is not nearer to another channel, or its figures are not live."""
 
 
 class LiveMessage(LiveContent, LiveEnvelope):
@@ -169,6 +181,9 @@ def live_content(instant: Instant, *, now_s: float) -> LiveContent:
         snapshot=None if instant.snapshot is None else snapshot_message(instant.snapshot),
         headline=headline_message(headline_of(instant.snapshot, instant.alarms)),
         alarms=alarms_message(instant.alarms, now_s=now_s),
+        proposed_channel=None
+        if instant.proposed_channel is None
+        else ProposedChannelMessage.model_validate(instant.proposed_channel, from_attributes=True),
     )
 
 

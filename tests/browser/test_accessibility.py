@@ -35,7 +35,7 @@ def patient(port: int) -> dict[str, Any]:
 def watched(browser: Browser, shared_theatre: Theatre) -> Iterator[WatchedPage]:
     """The page of these tests, with axe-core loaded."""
     said = patient(shared_theatre.port)
-    context = browser.new_context(locale="en-GB")
+    context = browser.new_context(locale="en-GB", color_scheme="dark")
     context.set_default_timeout(PATIENCE_MS)
     context.add_init_script(path=AXE)
     context.route("**/api/dashboard", lambda route: route.fulfill(json=said))
@@ -138,6 +138,48 @@ def test_the_supervisor_s_view_while_it_is_live(opened: Callable[..., Page]) -> 
         page.set_viewport_size({"width": size[0], "height": size[1]})
         expect(page.get_by_test_id("cut-probe")).to_have_attribute("data-shows", "bare", timeout=PATIENCE_MS)
         assert faults(page) == []
+
+
+def test_the_light_theme(opened: Callable[..., Page], shared_theatre: Theatre) -> None:
+    page = opened("/operator/navigate")
+    page.emulate_media(color_scheme="light")
+    shared_theatre.tell("near")
+    for path in ("/operator/navigate", "/supervisor"):
+        opened(path)
+        expect(page.locator("html")).to_have_attribute("data-theme", "light")
+        over = page.locator("[data-reading=wall]")
+        expect(over).to_have_attribute("data-status", "over", timeout=PATIENCE_MS)
+        assert faults(page) == []
+    opened("/enter")
+    expect(page.get_by_test_id("enter")).to_be_visible(timeout=PATIENCE_MS)
+    assert faults(page) == []
+    opened("/supervisor")
+    page.get_by_test_id("theme").click()
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+    # Stored in the browser; theatre has a choice of its own.
+    page.reload()
+    expect(page.get_by_test_id("theme")).to_be_visible(timeout=PATIENCE_MS)
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+    page.evaluate("localStorage.clear()")
+    opened("/theatre")
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+    page.emulate_media(color_scheme="dark")
+
+
+def test_the_alarms_cover_nothing_of_a_page_that_is_scrolled(
+    opened: Callable[..., Page], shared_theatre: Theatre
+) -> None:
+    page = opened("/operator/navigate")
+    shared_theatre.tell("near")
+    expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
+    page.mouse.move(LYING[0] / 2, LYING[1] - 50)
+    page.mouse.wheel(0, 5000)
+    page.wait_for_function("document.querySelector('.operator-body').scrollTop > 0")
+    edges = "e => e.getBoundingClientRect()"
+    assert (
+        page.locator(".operator-band").evaluate(edges)["bottom"]
+        <= page.locator(".operator-body").evaluate(edges)["top"]
+    )
 
 
 def small_targets(page: Page) -> list[str]:

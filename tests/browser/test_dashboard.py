@@ -198,7 +198,7 @@ def test_failure_looks_like_failure(page: Page, shared_theatre: Theatre) -> None
     is_live(page, "scene")
     # This theatre has no CT: drill and plan are drawn alone, with a note.
     is_live(page, CUT)
-    expect(page.get_by_test_id(CUT).get_by_test_id("cut-note")).to_contain_text("NO CT")
+    expect(page.locator(f".pane-{CUT}").get_by_test_id("cut-note")).to_contain_text("NO CT")
     assert page.get_by_test_id(CUT).evaluate(HAS_DRILL)
     shared_theatre.tell("unseen")
     marker_is_out_of_view(page)

@@ -45,6 +45,7 @@ class Server:
     preparation: Preparation
     adopted: list[CaseSetup]
     tracked_from_s: list[float]
+    steps: Steps
     number: int = field(default=0)
 
     def ask(self, method: str, path: str, status: int, **sent: Any) -> Any:  # noqa: ANN401  JSON
@@ -145,6 +146,7 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
                 preparation=preparation,
                 adopted=adopted,
                 tracked_from_s=tracked_from_s,
+                steps=steps,
             )
         jobs.close()
 

@@ -143,3 +143,29 @@ def test_without_a_registration_nothing_is_placed(server: Server) -> None:
     assert server.store.all(case_id, DocumentKind.PLACEMENT) == ()
     plan = server.store.current(case_id, DocumentKind.PLAN, "main")
     assert server.ask("DELETE", f"{PLACEMENTS}/{plan.id}", 409, params=BY)["code"] == "PLACEMENT_UNKNOWN"
+
+
+def test_the_channel_that_the_drill_is_nearer_to_is_proposed_and_not_switched(
+    server: Server, patient: Patient
+) -> None:
+    observe = server.steps.channel_proposer.observe
+
+    def held(seen: Seen | None) -> Any:  # noqa: ANN401  a proposal or None
+        return [observe(patient.show(seen)) for _ in range(40)][-1]
+
+    assert held(drilled(-2.0)) is None
+    proposed = held(drilled(-2.0, side="right"))
+    assert (proposed.vertebra, proposed.side, proposed.is_registered) == ("L3", "right", True)
+    assert [one["is_active"] for one in channels(server).values()] == [True, False]
+    # Without a pose nothing is proposed.
+    assert held(None) is None
+    # Switched by a person: the chosen one is not proposed.
+    activate(server, side="right")
+    assert held(drilled(-2.0, side="right")) is None
+    assert held(drilled(-2.0)).side == "left"
+    # A channel with its screw is not proposed.
+    activate(server)
+    patient.show(drilled(30.0))
+    server.ask("POST", PLACEMENTS, 201, json=PLACE)
+    activate(server, side="right")
+    assert held(drilled(-2.0)) is None

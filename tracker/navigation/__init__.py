@@ -8,6 +8,7 @@ from tracker.navigation.figures import DrillLimits, Figure, FigureName, Status
 from tracker.navigation.lag import LagEstimator, MeasuredLatency
 from tracker.navigation.motion_detection import MotionDetection, motion_detected_by
 from tracker.navigation.motion_monitor import MotionMonitor
+from tracker.navigation.nearest_channel import NearestChannelMonitor
 from tracker.navigation.placed_screw import PlacedScrew
 from tracker.navigation.registration_check import (
     RegistrationCheck,
@@ -46,6 +47,7 @@ __all__ = [
     "MotionMonitor",
     "MotionState",
     "NavigationSnapshot",
+    "NearestChannelMonitor",
     "PlacedScrew",
     "RegistrationCheck",
     "ScrewSize",

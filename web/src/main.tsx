@@ -27,6 +27,7 @@ import "@mantine/core/styles/Paper.css";
 import "@mantine/core/styles/ActionIcon.css";
 import "@mantine/core/styles/Radio.css";
 import "@mantine/core/styles/Tabs.css";
+import "./theme/tokens.css";
 import "./theme/page.css";
 import "./theme/panes.css";
 import "./theme/cuts.css";
@@ -34,6 +35,7 @@ import "./theme/alarms.css";
 import "./theme/shell.css";
 import "./theme/signin.css";
 import "./theme/theatre.css";
+import "./theme/layouts.css";
 import "./theme/operator.css";
 import "./theme/restart.css";
 import "./theme/case.css";
@@ -48,13 +50,12 @@ import "./theme/latency.css";
 import "./theme/phone.css";
 import "./theme/recording.css";
 
-import { MantineProvider } from "@mantine/core";
 import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 import { App } from "./app/App";
 import { SessionProvider } from "./app/session";
 import "./rest/client";
-import { theme } from "./theme/theme";
+import { ThemeProvider } from "./theme/ThemeContext";
 import { textsFor } from "./texts/language";
 import { TextsProvider } from "./texts/TextsContext";
 
@@ -65,12 +66,12 @@ if (root === null) throw new Error("index.html has no #root");
 
 createRoot(root).render(
   <StrictMode>
-    <MantineProvider theme={theme} forceColorScheme="dark">
-      <TextsProvider value={texts}>
-        <SessionProvider>
+    <TextsProvider value={texts}>
+      <SessionProvider>
+        <ThemeProvider>
           <App />
-        </SessionProvider>
-      </TextsProvider>
-    </MantineProvider>
+        </ThemeProvider>
+      </SessionProvider>
+    </TextsProvider>
   </StrictMode>,
 );

@@ -191,11 +191,11 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
             {tools}
           </div>
         )}
-        {verdict.state === "bare" && <NoVolumeNote volume={verdict.volume} />}
         <div className="when-stale" data-testid={`cut-${name}-cover`}>
           <CutCover verdict={verdict} />
         </div>
       </div>
+      {verdict.state === "bare" && <NoVolumeNote volume={verdict.volume} />}
       {name === "probe" && <Split ref={split} />}
     </Pane>
   );

@@ -1,5 +1,13 @@
 import { expect, test } from "vitest";
-import { choicesOf, FIRST_CHOICE, hasPlane, pairOf, switched, type TileChoice } from "./tileChoice";
+import {
+  besideProbe,
+  choicesOf,
+  FIRST_CHOICE,
+  hasPlane,
+  pairOf,
+  switched,
+  type TileChoice,
+} from "./tileChoice";
 
 const CORONAL: TileChoice = { isAnatomical: true, name: "anatomical-coronal" };
 
@@ -36,4 +44,10 @@ test("other planes keep the view where they have it", () => {
 test("probe's eye and scene have one plane only", () => {
   expect(hasPlane(CORONAL)).toBe(true);
   expect(hasPlane(FIRST_CHOICE)).toBe(false);
+});
+
+test("a single tile beside the probe's eye has the planes and the scene", () => {
+  expect(besideProbe(FIRST_CHOICE)).toEqual({ name: "axial", choices: ["axial", "sagittal", "scene"] });
+  expect(besideProbe({ isAnatomical: false, name: "scene" }).name).toBe("scene");
+  expect(besideProbe(CORONAL).name).toBe("anatomical-coronal");
 });

@@ -33,6 +33,13 @@ export function pairOf(choice: TileChoice): { upper: CutName; lower: TileName; c
   return { upper, lower: isOther ? choice.name : first, choices: [...others, "scene"] };
 }
 
+/** Content of a single tile beside the probe's eye, and its alternatives. */
+export function besideProbe(choice: TileChoice): { name: TileName; choices: TileName[] } {
+  const planes = planesOf(choice);
+  const choices: TileName[] = [...planes, "scene"];
+  return { name: choices.includes(choice.name) ? choice.name : planes[0], choices };
+}
+
 /** The same view in the other kind of planes. */
 export function switched({ isAnatomical: was, name }: TileChoice): TileChoice {
   return { isAnatomical: !was, name: SAME_PLANE[name] ?? name };

@@ -161,6 +161,7 @@ export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
     snapshot: snapshot(),
     headline: headline(),
     alarms: alarms(),
+    proposed_channel: null,
     ...changes,
   };
 }

@@ -18,6 +18,7 @@ export type {
   MarkerMessage,
   MotionDetection,
   Priority,
+  ProposedChannelMessage,
   SnapshotMessage,
   Sound,
   Status,

@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
+import { ThemeButton } from "../theme/ThemeButton";
 import { useTexts } from "../texts/TextsContext";
 import { PAGES, type OperatorPage } from "./pages";
 import { useProcedure, type Step } from "../app/procedure";
@@ -40,6 +41,7 @@ export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
           );
         })}
       </ol>
+      <ThemeButton />
     </nav>
   );
 }

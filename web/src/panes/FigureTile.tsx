@@ -6,10 +6,12 @@ import type { Texts } from "../texts/en";
 import { interpolate } from "../texts/interpolate";
 import { useTexts } from "../texts/TextsContext";
 import { figureOf, type FigureName } from "./limits";
-import { setData, setText } from "./setText";
+import { setData, setText, setVariable } from "./setText";
 import { wallSide } from "./verdictText";
 
 const REMOVED = "—";
+/** As in "12.3": a figure keeps its size while it has fewer. */
+const MIN_GLYPHS = 4;
 const MARKS: Record<Status, string> = {
   within: "",
   over: "▲ ",
@@ -18,11 +20,11 @@ const MARKS: Record<Status, string> = {
   outside: "",
 };
 
-/** One figure with its unit and limit. */
-export function FigureTile({ name }: { name: FigureName }): ReactNode {
+/** One figure with its unit and limit; a large one stands out from the others. */
+export function FigureTile({ name, isLarge = false }: { name: FigureName; isLarge?: boolean }): ReactNode {
   const texts = useTexts();
   return (
-    <div className="reading" data-reading={name} data-status="none">
+    <div className="reading" data-reading={name} data-status="none" data-large={isLarge}>
       <p className="reading-name">
         <span>{texts.reading[name].name}</span> <small data-part="hint" />{" "}
         <span className="unit">{texts.reading[name].unit}</span>
@@ -65,7 +67,10 @@ export function paintFigure(
   const tile = pane?.querySelector<HTMLElement>(`[data-reading=${name}]`);
   if (!tile) return;
   const figure = reading === null ? null : figureOf(reading, name);
-  setText(tile.querySelector("[data-part=value]"), figure ? formatFigure(figure.value) : REMOVED);
+  const value = figure ? formatFigure(figure.value) : REMOVED;
+  setText(tile.querySelector("[data-part=value]"), value);
+  // The figure's size depends on it, so that none of its digits is cut off.
+  setVariable(tile, "--glyphs", String(Math.max(value.length, MIN_GLYPHS)));
   setText(tile.querySelector("[data-part=limit]"), figure ? limitText(figure, name, texts) : "");
   setText(tile.querySelector("[data-part=hint]"), hintOf(reading, name, texts));
   setData(tile, "status", figure?.status ?? "none");

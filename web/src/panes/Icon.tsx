@@ -11,6 +11,8 @@ const LINES = {
   undo: "M8 4L3 9l5 5M3 9h11a6 6 0 0 1 0 12h-4",
   turnLeft: "M4 4v6h6M4.5 10A8.5 8.5 0 1 1 4 15",
   turnRight: "M20 4v6h-6M19.5 10A8.5 8.5 0 1 0 20 15",
+  sun: "M16 12a4 4 0 1 1-8 0a4 4 0 0 1 8 0M12 2v3M12 19v3M2 12h3M19 12h3M5 5l2 2M17 17l2 2M5 19l2-2M17 7l2-2",
+  moon: "M20 14.5A8.5 8.5 0 1 1 9.5 4A7 7 0 0 0 20 14.5z",
   cross: "M5 5l14 14M19 5L5 19",
 } as const;
 

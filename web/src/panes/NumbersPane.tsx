@@ -3,12 +3,19 @@ import { usePainter } from "../live/LiveContext";
 import { useTrend } from "../trend/useTrend";
 import { useTexts } from "../texts/TextsContext";
 import { FigureTile, paintFigure } from "./FigureTile";
-import { FIGURES } from "./limits";
+import { FIGURES, type FigureName } from "./limits";
 import { NumbersState } from "./NumbersState";
 import { setData } from "./setText";
 
+interface NumbersPaneProps {
+  /** Figures that are drawn larger than the others. */
+  large?: readonly FigureName[];
+  /** Shown below the headline. */
+  beside?: ReactNode;
+}
+
 /** The surgeon's numbers with their limits, replaced by words when they are not live. */
-export function NumbersPane(): ReactNode {
+export function NumbersPane({ large = [], beside }: NumbersPaneProps): ReactNode {
   const texts = useTexts();
   const pane = useRef<HTMLDivElement>(null);
 
@@ -28,10 +35,10 @@ export function NumbersPane(): ReactNode {
         {texts.numbers.title}
       </h2>
       <div className="numbers" data-testid="numbers" data-live="false" ref={pane}>
-        <NumbersState />
+        <NumbersState>{beside}</NumbersState>
         <div className="readings" id="numbers" tabIndex={-1}>
           {FIGURES.map((name) => (
-            <FigureTile key={name} name={name} />
+            <FigureTile key={name} name={name} isLarge={large.includes(name)} />
           ))}
         </div>
       </div>

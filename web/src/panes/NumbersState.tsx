@@ -6,11 +6,12 @@ import { formatDuration } from "../live/rounding";
 import type { Texts } from "../texts/en";
 import { textOf } from "../texts/text";
 import { useTexts } from "../texts/TextsContext";
+import { ProposedChannel } from "./ProposedChannel";
 import { setData, setText } from "./setText";
 import { errorText, lagText, riskText, TONE_SYMBOL } from "./verdictText";
 
 /** Headline and detail of the displayed figures, or why there are none. */
-export function NumbersState(): ReactNode {
+export function NumbersState({ children }: { children?: ReactNode }): ReactNode {
   const texts = useTexts();
   const { view } = useLive();
   const headline = useRef<HTMLParagraphElement>(null);
@@ -45,6 +46,8 @@ export function NumbersState(): ReactNode {
       <p className="state-event" data-testid="headline-event" ref={event} />
       <p className="state-ahead" data-testid="ahead" ref={risk} />
       <p className="state-ahead" data-testid="tip" ref={error} />
+      <ProposedChannel />
+      {children}
     </div>
   );
 }

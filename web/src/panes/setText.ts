@@ -7,3 +7,7 @@ export function setText(element: Element | null, text: string): void {
 export function setData(element: HTMLElement | null, name: string, value: string): void {
   if (element && element.dataset[name] !== value) element.dataset[name] = value;
 }
+
+export function setVariable(element: HTMLElement | null, name: `--${string}`, value: string): void {
+  if (element && element.style.getPropertyValue(name) !== value) element.style.setProperty(name, value);
+}

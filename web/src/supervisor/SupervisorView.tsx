@@ -18,6 +18,7 @@ import { RecordingState } from "../recording/RecordingState";
 import type { Signable } from "../room/messages";
 import { useRoomSnapshot } from "../room/RoomContext";
 import { Viewers } from "../room/Viewers";
+import { ThemeButton } from "../theme/ThemeButton";
 import { useTexts } from "../texts/TextsContext";
 import { isLoopback } from "../live/loopback";
 import { AgesStrip } from "./Ages";
@@ -49,6 +50,7 @@ export function SupervisorView(): ReactNode {
           <ViewSwitch />
           <Viewers />
           <PictureSize />
+          <ThemeButton />
           <SignedIn />
         </header>
         <AlarmsAfterFirstMessage />

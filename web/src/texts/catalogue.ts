@@ -48,6 +48,7 @@ export interface Texts {
     errorUnknown: string;
     steadied: string;
     whileMoving: string;
+    nearerTo: string;
     latencyUnknown: string;
     trend: string;
   };

@@ -48,6 +48,7 @@ export const de: Texts = {
     errorUnknown: "95-%-Fehler unbekannt",
     steadied: "geglättet, verzögert um",
     whileMoving: "in Bewegung",
+    nearerTo: "Bohrer näher an {channel} · Wechsel unter Navigation",
     latencyUnknown: "in Bewegung, Latenz unbekannt",
     trend: "{figure} der letzten 30 s, mit Grenze",
   },

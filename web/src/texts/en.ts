@@ -50,6 +50,7 @@ export const en: Texts = {
     errorUnknown: "95 % error unknown",
     steadied: "smoothed, delayed by",
     whileMoving: "while moving",
+    nearerTo: "Drill nearer to {channel} · switch under Navigation",
     latencyUnknown: "moving, latency unknown",
     trend: "{figure} in the last 30 s, with its limit",
   },

@@ -6,9 +6,12 @@ import { DetailsPane } from "../panes/DetailsPane";
 import { MarkersPane } from "../panes/MarkersPane";
 import { RecordingState } from "../recording/RecordingState";
 import { useTexts } from "../texts/TextsContext";
+import { ThemeButton } from "../theme/ThemeButton";
+import { LayoutSettings } from "./layouts/LayoutSettings";
+import type { Layouts } from "./layouts/useLayouts";
 
 /** Scores, times and counts, collapsed by default. */
-export function MoreDetails(): ReactNode {
+export function MoreDetails({ layouts }: { layouts: Layouts }): ReactNode {
   const texts = useTexts().theatre;
   const details = useRef<HTMLDetailsElement>(null);
   return (
@@ -26,9 +29,11 @@ export function MoreDetails(): ReactNode {
         <div className="more-tools">
           <ViewSwitch />
           <PictureSize />
+          <ThemeButton />
           <RecordingState testId="recording-more" />
           <SignedIn />
         </div>
+        <LayoutSettings layouts={layouts} />
         <MarkersPane />
         <DetailsPane />
       </div>

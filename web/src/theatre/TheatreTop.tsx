@@ -4,10 +4,11 @@ import { RecordingState } from "../recording/RecordingState";
 import { LiveStatus } from "../panes/LiveStatus";
 import { Viewers } from "../room/Viewers";
 import { MoreDetails } from "./MoreDetails";
+import type { Layouts } from "./layouts/useLayouts";
 import { NavigationStatus } from "./NavigationStatus";
 
 /** Header of the theatre view: navigation status, viewers and live state. */
-export function TheatreTop(): ReactNode {
+export function TheatreTop({ layouts }: { layouts: Layouts }): ReactNode {
   return (
     <header className="top">
       <Brand />
@@ -16,7 +17,7 @@ export function TheatreTop(): ReactNode {
       <RecordingState />
       <LiveStatus />
       <div className="top-tools">
-        <MoreDetails />
+        <MoreDetails layouts={layouts} />
       </div>
     </header>
   );

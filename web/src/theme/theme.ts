@@ -5,6 +5,10 @@ export const theme = createTheme({
   fontFamily: 'Inter, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", "DejaVu Sans", Arial, sans-serif',
   fontFamilyMonospace: 'ui-monospace, "Cascadia Mono", "DejaVu Sans Mono", monospace',
   primaryColor: "cyan",
+  primaryShade: { light: 9, dark: 8 },
+  // Black or white text on filled buttons, whichever has the larger contrast.
+  autoContrast: true,
+  luminanceThreshold: 0.18,
   defaultRadius: "md",
   respectReducedMotion: true,
   components: {

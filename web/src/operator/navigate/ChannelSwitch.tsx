@@ -1,6 +1,8 @@
 import { useState, type ReactNode } from "react";
 import { getPlan, postPlanActiveChannel } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
+import { useLive } from "../../live/LiveContext";
+import { proposedChannel } from "../../live/proposedChannel";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
@@ -24,6 +26,8 @@ export function ChannelSwitch(): ReactNode {
     async (signal) => (isPlanned === true ? getPlan({ signal }) : null),
     { key: String(isPlanned) },
   );
+  const { view } = useLive();
+  const proposed = proposedChannel(view);
   const [shown, setShown] = useState(false);
   const switching = useAction();
   if (isPlanned === false) return null;
@@ -56,6 +60,7 @@ export function ChannelSwitch(): ReactNode {
         others.map((one) => {
           const stays = one.vertebra === active?.vertebra;
           const name = `${one.vertebra} ${sideName(one.side)}`;
+          const isProposed = one.vertebra === proposed?.vertebra && one.side === proposed.side;
           return (
             <div key={name}>
               <p className="quiet">
@@ -85,7 +90,7 @@ export function ChannelSwitch(): ReactNode {
                     });
                 }}
               >
-                {name}
+                {isProposed ? `${name} · ${texts.nearer}` : name}
               </ConfirmOrCancelButton>
             </div>
           );

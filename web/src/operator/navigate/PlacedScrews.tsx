@@ -70,6 +70,8 @@ function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
       </ul>
       {active !== undefined && (
         <PlaceHere
+          // Another channel begins with its own planned size.
+          key={`${active.vertebra} ${active.side} ${active.screw === null ? "" : sizeText(active.screw)}`}
           channel={active}
           busy={acting.busy}
           onPlace={(size) => {
@@ -104,7 +106,10 @@ function ChannelRow({
         </strong>
         {screw !== null && (
           <span>
-            {formatNumber(screw.diameter_mm)} × {formatNumber(screw.length_mm, 0)} mm
+            {sizeText(screw)} mm
+            {placement !== null && channel.screw !== null && sizeText(channel.screw) !== sizeText(screw)
+              ? ` (${texts.planned}: ${sizeText(channel.screw)} mm)`
+              : ""}
           </span>
         )}
         <span>
@@ -142,6 +147,10 @@ function ChannelRow({
   );
 }
 
+function sizeText({ diameter_mm, length_mm }: Size): string {
+  return `${formatNumber(diameter_mm)} × ${formatNumber(length_mm, 0)}`;
+}
+
 interface Size {
   diameter_mm: number;
   length_mm: number;
@@ -158,8 +167,9 @@ function PlaceHere({
 }): ReactNode {
   const texts = useTexts().navigate.screws;
   const sideName = useSides();
-  const [diameter, setDiameter] = useState<number | string>("");
-  const [length, setLength] = useState<number | string>("");
+  // The size that is placed; as planned until another one is entered.
+  const [diameter, setDiameter] = useState<number | string>(channel.screw?.diameter_mm ?? "");
+  const [length, setLength] = useState<number | string>(channel.screw?.length_mm ?? "");
   const size =
     typeof diameter === "number" && typeof length === "number"
       ? { diameter_mm: diameter, length_mm: length }
@@ -167,21 +177,35 @@ function PlaceHere({
   const name = `${channel.vertebra} ${sideName(channel.side)}`;
   return (
     <div className="stack">
-      {channel.screw === null && (
-        <div className="row">
-          <NumberInput label={texts.diameter} min={1} max={20} value={diameter} onChange={setDiameter} />
-          <NumberInput label={texts.length} min={5} max={200} value={length} onChange={setLength} />
-        </div>
-      )}
+      <div className="row">
+        <NumberInput
+          label={texts.diameter}
+          min={1}
+          max={20}
+          step={0.5}
+          value={diameter}
+          onChange={setDiameter}
+          data-testid="placed-diameter"
+        />
+        <NumberInput
+          label={texts.length}
+          min={5}
+          max={200}
+          step={5}
+          value={length}
+          onChange={setLength}
+          data-testid="placed-length"
+        />
+      </div>
       <ConfirmOrCancelButton
         // The first placement can be withdrawn; another one replaces what is stored.
         needsConfirmation={channel.placement !== null}
         confirmLabel={interpolate(texts.replaceSure, { channel: name })}
         busy={busy}
-        disabled={channel.screw === null && size === null}
+        disabled={size === null}
         testId="place-here"
         onConfirm={() => {
-          onPlace(channel.screw === null ? size : null);
+          onPlace(size);
         }}
       >
         {interpolate(texts.placeHere, { channel: name })}

@@ -31,6 +31,7 @@ export const navigateDe: NavigateTexts = {
   sameVertebra: "Gleicher Wirbel: Registrierung und Prüfung bleiben gültig.",
   otherVertebra:
     "Anderer Wirbel: {vertebra} braucht eine eigene Registrierung und Prüfung. Bis dahin werden keine Werte angezeigt.",
+  nearer: "Bohrer näher",
   switchSure: "Ja, {channel} bohren",
   screws: {
     title: "Schrauben",

@@ -28,6 +28,7 @@ export const navigateEn = {
   sameVertebra: "Same vertebra: registration and check remain valid.",
   otherVertebra:
     "Another vertebra: {vertebra} needs its own registration and check. No numbers are shown until then.",
+  nearer: "drill nearer",
   switchSure: "Yes, drill {channel}",
   screws: {
     title: "Screws",

@@ -7,4 +7,5 @@ export const shellDe: ShellTexts = {
   tracking: "Tracking",
   live: "Werte live",
   none: "keine Werte",
+  theme: { light: "Helle Farben", dark: "Dunkle Farben" },
 };

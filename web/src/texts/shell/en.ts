@@ -5,6 +5,7 @@ export const shellEn = {
   tracking: "Tracking",
   live: "numbers live",
   none: "no numbers",
+  theme: { light: "Light colours", dark: "Dark colours" },
 };
 
 export type ShellTexts = typeof shellEn;

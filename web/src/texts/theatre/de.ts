@@ -85,4 +85,20 @@ export const theatreDe: TheatreTexts = {
   hoursAgo: "h alt",
   unknown: "unbekannt",
   more: "Mehr",
+  layouts: {
+    title: "Anordnung",
+    name: { approach: "Anfahren", align: "Ausrichten", drill: "Bohren", overview: "Übersicht" },
+    automatic: "Automatisch",
+    on: "ein",
+    off: "aus",
+    next: "Nächste Anordnung",
+    figuresScreen: "Nur Zahlen, für einen zweiten Bildschirm",
+    theatreScreen: "Bildschirm mit Video und Schnitten",
+    keysHint:
+      "Ein Fußschalter ist für diese Seite eine Tastatur. Eingabe-, Leer-, Tabulator- und Escape-Taste sind nicht belegbar. Die Belegung wird in diesem Browser gespeichert.",
+    noKey: "keine Taste",
+    setKey: "Taste belegen",
+    pressKey: "Taste jetzt drücken",
+    removeKey: "Entfernen",
+  },
 };

@@ -83,6 +83,22 @@ export const theatreEn = {
   hoursAgo: "h ago",
   unknown: "not known",
   more: "More",
+  layouts: {
+    title: "Layout",
+    name: { approach: "Approach", align: "Align", drill: "Drill", overview: "Overview" },
+    automatic: "Automatic",
+    on: "on",
+    off: "off",
+    next: "Next layout",
+    figuresScreen: "Figures only, for a second screen",
+    theatreScreen: "Theatre screen with video and cuts",
+    keysHint:
+      "A foot switch is a keyboard to this page. Enter, Space, Tab and Escape cannot be set. Keys are stored in this browser.",
+    noKey: "no key",
+    setKey: "Set key",
+    pressKey: "Press the key now",
+    removeKey: "Remove",
+  },
 };
 
 export type TheatreTexts = typeof theatreEn;
