@@ -207,7 +207,7 @@ def stands_ready(folder: Path, fails: str) -> None:
     for file in ("pyproject.toml", "web/package-lock.json"):
         (folder / file).touch()
     called = f'echo "${{0##*/}} $*" >>{folder}/called; case "${{0##*/}} $*" in *"{fails}"*) exit 1;; esac'
-    for program in ("python", "lint-imports"):
+    for program in ("python", "lint-imports", "pyrefly"):
         put(folder / ".venv" / "bin", program, called)
     put(folder / ".make", "step", 'shift 3; exec "$@"')
     for program in ("with-node", "find-chromium", "run-tests"):
