@@ -23,6 +23,12 @@ class Entry:
     by: str
 
 
+def guiding_entry(*, screen: str, by: str, is_on: bool, at: str, at_s: float) -> Entry:
+    """Return the log line of a guiding sound that was turned on or off."""
+    change = "guiding_on" if is_on else "guiding_off"
+    return Entry(line={"at": at, "at_s": at_s, "change": change, "screen": screen, "by": by}, by=by)
+
+
 def entry_of(
     event: AlarmEvent, *, at: str, unix_offset_s: float, snapshot: NavigationSnapshot | None
 ) -> Entry:

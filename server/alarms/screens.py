@@ -11,10 +11,12 @@ class Screen:
 
     Attributes:
         armed: Its sound is enabled.
+        guiding_by: Who hears its guiding sound; empty while it is off.
         heard_at_s: Time of its last report.
     """
 
     armed: bool
+    guiding_by: str = ""
     heard_at_s: float
 
 
@@ -30,13 +32,13 @@ class Screens:
         self._screens: dict[str, Screen] = {}
         self._lost: set[str] = set()
 
-    def report(self, name: str, *, armed: bool, at_s: float) -> None:
+    def report(self, name: str, *, armed: bool, at_s: float, guiding_by: str = "") -> None:
         """Record the sound state of a screen."""
         if name not in self._screens and len(self._screens) >= MAX_SCREENS:
             oldest = min(self._screens, key=lambda one: self._screens[one].heard_at_s)
             del self._screens[oldest]
         is_new = armed and not (name in self._screens and self._screens[name].armed)
-        self._screens[name] = Screen(armed=armed, heard_at_s=at_s)
+        self._screens[name] = Screen(armed=armed, guiding_by=guiding_by, heard_at_s=at_s)
         self._lost.discard(name)
         if is_new:
             self._lost.clear()
@@ -54,6 +56,11 @@ class Screens:
         """Return the number of screens with enabled sound."""
         self._expire(at_s)
         return sum(screen.armed for screen in self._screens.values())
+
+    def guiding(self, at_s: float) -> dict[str, str]:
+        """Return the screens whose guiding sound is on, each with who hears it."""
+        self._expire(at_s)
+        return {name: one.guiding_by for name, one in self._screens.items() if one.guiding_by}
 
     def lost(self, at_s: float) -> int:
         """Return the number of lost screens."""

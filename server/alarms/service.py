@@ -8,7 +8,7 @@ from datetime import datetime
 from math import inf
 from typing import TypeAlias
 
-from server.alarms.entries import entry_of
+from server.alarms.entries import entry_of, guiding_entry
 from server.alarms.evaluation import AlarmCall, AlarmEvaluation, AlarmState, AlarmStep, Circumstances
 from server.alarms.log import AlarmLog, NoLog
 from server.alarms.screens import Screens
@@ -87,6 +87,7 @@ class AlarmService:
         self._wall_clock = wall_clock
         self._lock = threading.Lock()
         self._screens = Screens(lost_after_s=config.alarms.screen_lost_after_s)
+        self._guiding: dict[str, str] = {}
         self._camera_works = True
         self._tracker_works = True
         self._facts = ProcedureFacts()
@@ -196,11 +197,11 @@ class AlarmService:
         """End the hold request."""
         return self._set_hold("", by=by)
 
-    def report_screen(self, name: str, *, armed: bool) -> AlarmSnapshot:
-        """Record the sound state of a screen."""
+    def report_screen(self, name: str, *, armed: bool, guiding_by: str = "") -> AlarmSnapshot:
+        """Record the sound state of a screen, and who hears its guiding sound; empty while that is off."""
         with self._lock:
             at_s = self._clock()
-            self._screens.report(name, armed=armed, at_s=at_s)
+            self._screens.report(name, armed=armed, at_s=at_s, guiding_by=guiding_by)
             return self._step(at_s)
 
     def close_screen(self, name: str) -> None:
@@ -238,6 +239,7 @@ class AlarmService:
             by=by,
         )
         picture = self._logged(self._evaluation.apply(step, snapshot), by=by)
+        self._log_guiding(at_s)
         if self._recorder is not None:
             self._recorder(step, picture)
         return picture
@@ -274,6 +276,15 @@ class AlarmService:
             ]
             self._log.append(entries)
         return picture
+
+    def _log_guiding(self, at_s: float) -> None:
+        """Log guiding sounds that were turned on or off; a screen that stopped reporting has none."""
+        before, self._guiding = self._guiding, self._screens.guiding(at_s)
+        for name in sorted(before.keys() ^ self._guiding.keys()):
+            is_on = name in self._guiding
+            by = (self._guiding if is_on else before)[name]
+            at = utc_text(self._wall_clock())
+            self._log.append([guiding_entry(screen=name, by=by, is_on=is_on, at=at, at_s=at_s)])
 
 
 def _doer(event: AlarmEvent, by: str) -> str:

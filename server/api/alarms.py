@@ -60,6 +60,8 @@ class ScreenRequest(Message):
     """Random name that the screen chooses when it loads the page."""
     state: Literal["armed", "silent", "closed"]
     """silent: sound not enabled yet, or it failed. closed: no alarm for its absence."""
+    guiding_sound: bool = False
+    """Whether the guiding sound is on; each change is in the alarm log."""
 
 
 class LogMessage(Message):
@@ -108,7 +110,7 @@ def _add_seeing(router: APIRouter, service: AlarmService) -> None:
 
     @router.get("/log", responses=rejections(422, 503))
     def log(last: Annotated[int, Query(ge=1, le=10_000)] = 200) -> LogMessage:
-        """Return the last lines of the alarm log: raised, cleared, acknowledged and paused alarms."""
+        """Return the last lines of the alarm log: changes of alarms, and guiding sounds turned on and off."""
         return LogMessage(lines=[dict(line) for line in service.log.newest(last)])
 
     @router.get(
@@ -140,12 +142,16 @@ def _add_answering(router: APIRouter, service: AlarmService) -> None:
         return _logged(service, service.resume(by=actor_name(request.scope, requested.by)))
 
     @router.post("/screens", responses=rejections(422))
-    def screen(requested: ScreenRequest) -> AlarmsMessage:
+    def screen(requested: ScreenRequest, request: Request) -> AlarmsMessage:
         """Report the sound state of a screen; expected every two seconds."""
         if requested.state == "closed":
             service.close_screen(requested.screen)
             return _message(service.picture)
-        return _message(service.report_screen(requested.screen, armed=requested.state == "armed"))
+        guiding_by = (
+            actor_name(request.scope, f"screen {requested.screen[:4]}") if requested.guiding_sound else ""
+        )
+        armed = requested.state == "armed"
+        return _message(service.report_screen(requested.screen, armed=armed, guiding_by=guiding_by))
 
 
 def _add_holding(router: APIRouter, service: AlarmService, holds: HoldRequests) -> None:

@@ -232,6 +232,27 @@ def test_an_armed_screen_that_falls_silent_is_lost_and_one_that_is_closed_is_not
     assert room.images(2.0).alarms == ()
 
 
+def test_the_log_tells_when_a_guiding_sound_was_on_and_who_heard_it(room: Room) -> None:
+    def reported() -> list[tuple[object, object, object]]:
+        lines = [line for line in room.stored.lines if "screen" in line]
+        return [(line["change"], line["screen"], line["by"]) for line in lines]
+
+    for _ in range(3):
+        room.service.report_screen("tablet-22", armed=True, guiding_by="M. Ito")
+    assert reported() == [("guiding_on", "tablet-22", "M. Ito")]
+    room.service.report_screen("tablet-22", armed=True)
+    assert reported()[1:] == [("guiding_off", "tablet-22", "M. Ito")]
+    # A screen that is closed, or of which nothing is heard any more, has none.
+    room.service.report_screen("tablet-22", armed=False, guiding_by="M. Ito")
+    room.service.report_screen("phone-333", armed=False, guiding_by="Dr Sato")
+    room.service.close_screen("phone-333")
+    room.images(7.0)
+    assert {(change, who) for change, _, who in reported()[4:]} == {
+        ("guiding_off", "Dr Sato"),
+        ("guiding_off", "M. Ito"),
+    }
+
+
 def test_what_people_do_is_kept_with_their_name(room: Room) -> None:
     room.service.request_hold(by="Dr Sato")
     number = room.service.picture.alarms[0].number

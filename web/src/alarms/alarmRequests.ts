@@ -16,6 +16,13 @@ const SCREEN = Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) =>
 /** Without sign-in, actions are attributed to the screen. */
 const BY = `screen ${SCREEN.slice(0, 4)}`;
 
+let isGuiding = false;
+
+/** Sets whether this screen plays the guiding sound, for its next report. */
+export function setGuiding(isOn: boolean): void {
+  isGuiding = isOn;
+}
+
 export async function acknowledge(numbers: number[]): Promise<boolean> {
   return done(postAlarmsAcknowledgement({ body: { by: BY, numbers } }));
 }
@@ -30,7 +37,7 @@ export async function resume(): Promise<boolean> {
 
 export async function reportArmed(armed: boolean, signal: AbortSignal): Promise<boolean> {
   const state = armed ? "armed" : "silent";
-  return done(postAlarmsScreens({ body: { screen: SCREEN, state }, signal }));
+  return done(postAlarmsScreens({ body: { screen: SCREEN, state, guiding_sound: isGuiding }, signal }));
 }
 
 /** Reports that the page closes, so that the screen does not count as lost. */

@@ -1,6 +1,7 @@
 import { useRef, type ReactNode } from "react";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
+import { GuidingSoundSettings } from "../guidance/GuidingSoundSettings";
 import { PictureSize } from "../live/PictureSize";
 import { DetailsPane } from "../panes/DetailsPane";
 import { MarkersPane } from "../panes/MarkersPane";
@@ -34,6 +35,7 @@ export function MoreDetails({ layouts }: { layouts: Layouts }): ReactNode {
           <SignedIn />
         </div>
         <LayoutSettings layouts={layouts} />
+        <GuidingSoundSettings />
         <MarkersPane />
         <DetailsPane />
       </div>

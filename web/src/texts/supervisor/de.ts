@@ -108,6 +108,8 @@ export const supervisorDe: SupervisorTexts = {
       acknowledged: "quittiert",
       paused: "Ton pausiert",
       resumed: "Ton eingeschaltet",
+      guiding_on: "Leitton ein",
+      guiding_off: "Leitton aus",
     },
     by: "von",
   },

@@ -111,6 +111,8 @@ export const supervisorEn = {
       acknowledged: "acknowledged",
       paused: "sound paused",
       resumed: "sound turned on",
+      guiding_on: "guiding sound on",
+      guiding_off: "guiding sound off",
     },
     by: "by",
   },

@@ -101,4 +101,18 @@ export const theatreDe: TheatreTexts = {
     pressKey: "Taste jetzt drücken",
     removeKey: "Entfernen",
   },
+  guiding: {
+    title: "Leitton",
+    hint: "Außerhalb des Knochens zwei Töne: Abstand, dann Winkel. Ein höherer Ton ist weiter weg, und der Kanal liegt auf der Seite, von der er kommt. Im Knochen ein Ticken: schneller, je weniger Tiefe bleibt. Still neben Alarmen und ohne Zahlen.",
+    turnOn: "Einschalten",
+    turnOff: "Ausschalten",
+    failed: "Dieser Browser gibt zurzeit keinen Ton aus.",
+    volume: "Lautstärke",
+    example: {
+      aligned: "Beispiel: am Ziel",
+      offset: "Beispiel: 10 mm daneben, Kanal links",
+      angle: "Beispiel: 10° verkippt, nach rechts drehen",
+      depth: "Beispiel: noch 5 mm",
+    },
+  },
 };

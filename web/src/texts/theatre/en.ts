@@ -99,6 +99,20 @@ export const theatreEn = {
     pressKey: "Press the key now",
     removeKey: "Remove",
   },
+  guiding: {
+    title: "Guiding sound",
+    hint: "Outside the bone two notes: offset, then angle. A higher note is farther off, and the channel is on the side that you hear. In the bone ticks: faster with less depth to go. Silent beside alarms and without figures.",
+    turnOn: "Turn on",
+    turnOff: "Turn off",
+    failed: "This browser has no sound at present.",
+    volume: "Volume",
+    example: {
+      aligned: "Example: on target",
+      offset: "Example: 10 mm off, channel to the left",
+      angle: "Example: 10° off, turn to the right",
+      depth: "Example: 5 mm to go",
+    },
+  },
 };
 
 export type TheatreTexts = typeof theatreEn;
