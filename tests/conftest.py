@@ -1,6 +1,5 @@
 """Shared fixtures: one real headless browser, and the order of the tests."""
 
-import gc
 import os
 import shutil
 from collections.abc import Iterator
@@ -11,10 +10,6 @@ from playwright.sync_api import Browser, sync_playwright
 
 # Set before NumPy is loaded, whose threads spin while waiting: workers use the cores already.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
-# Number of new objects after which Python collects garbage; usually 700. Hundreds of applications are made,
-# whose objects stay until the end of a test: searching them took a seventh of the time of tests/procedure.
-gc.set_threshold(100_000)
 
 CHECKOUT = Path(__file__).resolve().parents[1]
 IN_BROWSER = CHECKOUT / "tests" / "browser"

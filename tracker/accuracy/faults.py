@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from tracker.accuracy.marker_geometry import TipSensitivity, TrackedTool, tip_sensitivity
 from tracker.accuracy.plate import DivotPlate
@@ -64,7 +64,7 @@ class FaultEstimate:
     @property
     def max_size(self) -> float:
         """Return the upper 95 % limit of the size."""
-        return self.size + float(stats.norm.ppf(0.95)) * self.sd
+        return self.size + float(scipy.stats.norm.ppf(0.95)) * self.sd
 
     @property
     def is_found(self) -> bool:
@@ -137,13 +137,13 @@ def diagnose(
                 value=tuple(map(float, value)),
                 sd=float(np.sqrt(np.linalg.eigvalsh(covariance)[-1])),
                 alone_sd=float(np.sqrt(np.linalg.eigvalsh(alone_covariance)[-1])),
-                p=float(stats.f.sf(statistic, len(chosen), joint.freedom)),
+                p=float(scipy.stats.f.sf(statistic, len(chosen), joint.freedom)),
             )
         )
         rest = (alone.chi2 - joint.chi2) / (5 - len(chosen)) / variance
-        if float(stats.f.sf(rest, 5 - len(chosen), joint.freedom)) >= FALSE_ALARM:
+        if float(scipy.stats.f.sf(rest, 5 - len(chosen), joint.freedom)) >= FALSE_ALARM:
             adequate.append(fault)
-    together = float(stats.f.sf((none.chi2 - joint.chi2) / 5.0 / variance, 5, joint.freedom))
+    together = float(scipy.stats.f.sf((none.chi2 - joint.chi2) / 5.0 / variance, 5, joint.freedom))
     is_open = together < FALSE_ALARM and not any(one.is_found for one in estimates)
     return Diagnosis(
         estimates=tuple(estimates),

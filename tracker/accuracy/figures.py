@@ -11,7 +11,7 @@ from enum import StrEnum
 
 import numpy as np
 import numpy.typing as npt
-from scipy import stats
+import scipy
 
 from tracker.accuracy.marker_geometry import TrackedTool
 from tracker.accuracy.plate import DivotPlate
@@ -181,7 +181,7 @@ def inside_stated(fit: PlateFit, plate: DivotPlate, tool: TrackedTool) -> npt.ND
         float(residual @ np.linalg.pinv(of_residuals[3 * n : 3 * n + 3, 3 * n : 3 * n + 3]) @ residual)
         for n, residual in enumerate(fit.residuals_mm)
     ]
-    return np.asarray(np.array(squares) <= float(stats.chi2.ppf(0.95, 3)))
+    return np.asarray(np.array(squares) <= float(scipy.stats.chi2.ppf(0.95, 3)))
 
 
 def _point(fit: PlateFit, found: VarianceComponents) -> JackknifeRms:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import stats
+import scipy
 
 from tracker.geometry import Array
 
@@ -98,7 +98,7 @@ def effective_dimension(covariance: Array) -> float:
 
 def rms_estimate(mean_square: float, freedom: float) -> Estimate:
     """Return the root of a mean square with its chi-square interval."""
-    low, high = (freedom * mean_square / stats.chi2.ppf(p, freedom) for p in (1.0 - TAIL, TAIL))
+    low, high = (freedom * mean_square / scipy.stats.chi2.ppf(p, freedom) for p in (1.0 - TAIL, TAIL))
     return Estimate(value=mean_square**0.5, low=float(low) ** 0.5, high=float(high) ** 0.5)
 
 
@@ -106,9 +106,9 @@ def component_estimate(found: VarianceComponents) -> Estimate:
     """Return the RMS of the group effects, with the interval of Ting, Burdick, Graybill et al. (1990)."""
     between, within = float(np.trace(found.between_mm2)), float(np.trace(found.within_mm2))
     n1, n2 = found.between_freedom, found.within_freedom
-    f_low, f_high = (float(stats.f.ppf(p, n1, n2)) for p in (TAIL, 1.0 - TAIL))
-    g1, g2 = (1.0 - n / float(stats.chi2.ppf(1.0 - TAIL, n)) for n in (n1, n2))
-    h1, h2 = (n / float(stats.chi2.ppf(TAIL, n)) - 1.0 for n in (n1, n2))
+    f_low, f_high = (float(scipy.stats.f.ppf(p, n1, n2)) for p in (TAIL, 1.0 - TAIL))
+    g1, g2 = (1.0 - n / float(scipy.stats.chi2.ppf(1.0 - TAIL, n)) for n in (n1, n2))
+    h1, h2 = (n / float(scipy.stats.chi2.ppf(TAIL, n)) - 1.0 for n in (n1, n2))
     g12 = ((f_high - 1.0) ** 2 - (g1 * f_high) ** 2 - h2**2) / f_high
     h12 = ((1.0 - f_low) ** 2 - (h1 * f_low) ** 2 - g2**2) / f_low
     value = (between - within) / found.size
@@ -125,7 +125,7 @@ def quantile_95_mm(covariance_mm2: Array) -> float:
     The squared length is approximated by a scaled chi-square distribution with the same first two moments.
     """
     dimension = effective_dimension(covariance_mm2)
-    return float(np.sqrt(np.trace(covariance_mm2) / dimension * stats.chi2.ppf(0.95, dimension)))
+    return float(np.sqrt(np.trace(covariance_mm2) / dimension * scipy.stats.chi2.ppf(0.95, dimension)))
 
 
 def share_estimate(inside: npt.NDArray[np.bool_], effective_count: float) -> Estimate:
@@ -133,15 +133,15 @@ def share_estimate(inside: npt.NDArray[np.bool_], effective_count: float) -> Est
     share = float(inside.mean())
     hits = share * effective_count
     misses = effective_count - hits
-    low = float(stats.beta.ppf(TAIL, hits, misses + 1.0)) if hits > 0.0 else 0.0
-    high = float(stats.beta.ppf(1.0 - TAIL, hits + 1.0, misses)) if misses > 1e-9 else 1.0
+    low = float(scipy.stats.beta.ppf(TAIL, hits, misses + 1.0)) if hits > 0.0 else 0.0
+    high = float(scipy.stats.beta.ppf(1.0 - TAIL, hits + 1.0, misses)) if misses > 1e-9 else 1.0
     return Estimate(value=share, low=low, high=high)
 
 
 def mean_square_estimate(squares: Array) -> Estimate:
     """Return the root mean of squares (n,), one for each capture, with its Student interval."""
     mean = float(squares.mean())
-    half = float(stats.t.ppf(1.0 - TAIL, len(squares) - 1) * squares.std(ddof=1) / len(squares) ** 0.5)
+    half = float(scipy.stats.t.ppf(1.0 - TAIL, len(squares) - 1) * squares.std(ddof=1) / len(squares) ** 0.5)
     return Estimate(value=mean**0.5, low=max(mean - half, 0.0) ** 0.5, high=(mean + half) ** 0.5)
 
 
@@ -174,7 +174,7 @@ class JackknifeRms:
         return self._limit(0.95)
 
     def _limit(self, probability: float) -> float:
-        log = float(stats.t.ppf(probability, self.groups - 1)) * self.log_sd
+        log = float(scipy.stats.t.ppf(probability, self.groups - 1)) * self.log_sd
         return float(np.sqrt(self.mean_square * np.exp(log)))
 
 

@@ -23,7 +23,6 @@ export function NavigatePage(): ReactNode {
       <MovementWarning />
       <Gates />
       <SetupCheckNote />
-      <CertificateNote />
       <div className="board">
         <AfterFirstMessage loading={<LoadingNumbers />}>
           <NumbersPane />
@@ -38,6 +37,7 @@ export function NavigatePage(): ReactNode {
         <ChannelSwitch />
         <PlacedScrews />
       </div>
+      <CertificateNote />
       <RehearsalStrip scenes={["operation"]} />
     </div>
   );

@@ -179,6 +179,9 @@ function PlaceHere({
     <div className="stack">
       <div className="row">
         <NumberInput
+          hideControls
+          inputMode="decimal"
+          size="lg"
           label={texts.diameter}
           min={1}
           max={20}
@@ -188,6 +191,9 @@ function PlaceHere({
           data-testid="placed-diameter"
         />
         <NumberInput
+          hideControls
+          inputMode="decimal"
+          size="lg"
           label={texts.length}
           min={5}
           max={200}

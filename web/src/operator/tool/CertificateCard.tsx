@@ -32,7 +32,7 @@ export function CertificateCard(): ReactNode {
     <Card title={texts.title} testId="certificates" fresh={installed > 0 ? String(installed) : null}>
       <p>
         {texts.lead}{" "}
-        <a href="/docs/certificate/" target="_blank" rel="noreferrer">
+        <a className="big-link" href="/docs/certificate/" target="_blank" rel="noreferrer">
           {texts.guide}
         </a>
       </p>
