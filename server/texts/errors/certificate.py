@@ -215,6 +215,18 @@ CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
             "de": "die Platte „{plate}“ hat keine Mulde „{divot}“",
         },
     ),
+    "PLATE_FILE_INVALID": (
+        {
+            "en": "the plate file cannot be used: {why}",
+            "de": "die Plattendatei ist nicht brauchbar: {why}",
+        },
+    ),
+    "PLATE_FILE_UNREADABLE": (
+        {
+            "en": "the plate file is neither valid YAML nor JSON",
+            "de": "die Plattendatei ist weder gültiges YAML noch JSON",
+        },
+    ),
     "PLATE_INVALID": (
         {
             "en": "the plate '{plate}' cannot be used: {plate_problem}",

@@ -122,6 +122,11 @@ CERTIFICATE: tuple[Text, ...] = (
         "en": "Check it with the version of Coaxial that issued it.",
         "de": "Mit der Version von Coaxial prüfen, die es ausgestellt hat.",
     },
+    {
+        "en": "Write one with 'coaxial certify plate --output plate.pdf', or give name, sd_mm and divots.",
+        "de": "Eine mit 'coaxial certify plate --output plate.pdf' schreiben, oder name, sd_mm und divots "
+        "angeben.",
+    },
     {"en": "Name one of its divots: {divots}.", "de": "Eine ihrer Mulden nennen: {divots}."},
     {
         "en": "Give the position of each divot in mm, as measured or printed.",
