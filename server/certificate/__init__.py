@@ -10,11 +10,19 @@ from server.certificate.content import (
     certified_faults,
     certified_figures,
     certified_tool,
+    round_up,
     tracked_tool_of,
 )
 from server.certificate.examination import Examination, assess, examine
 from server.certificate.installed import InstalledCertificates
-from server.certificate.plate_file import PlateFile, plate_file_from, plate_file_in, text_of_plate_file
+from server.certificate.plate_file import (
+    PlateFile,
+    plate_file_from,
+    plate_file_in,
+    printed_plate,
+    printed_sheet,
+    text_of_plate_file,
+)
 from server.certificate.sheets import certificate_pdf, certificate_sheets, fault_rows, figure_rows
 from server.certificate.signature import SigningKey, existing_signer
 from server.certificate.validity import (
@@ -54,6 +62,9 @@ __all__ = [
     "invalidities",
     "plate_file_from",
     "plate_file_in",
+    "printed_plate",
+    "printed_sheet",
+    "round_up",
     "text_of_plate_file",
     "tracked_tool_of",
     "verified",

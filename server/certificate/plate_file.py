@@ -6,8 +6,11 @@ import yaml
 from pydantic import Field, ValidationError
 
 from server.config import Point, Section
+from server.printing import Sheet, grid_of_divots, plate_sheet
+from server.printing.plate_sheet import RULER_MM
 from server.yaml_file import parsed_yaml
 from tracker.accuracy import DivotPlate, PlateScale
+from tracker.accuracy.plate import PRINTED_SD_MM
 from tracker.errors import InvalidInput
 
 REMEDY = "Write one with 'coaxial certify plate --output plate.pdf', or give name, sd_mm and divots."
@@ -67,6 +70,39 @@ class PlateFile(Section):
                 {"rulers_mm": self.rulers_mm, "x_mm": measured_mm[0], "y_mm": measured_mm[1]},
             )
         return PlateScale(x_ratio=x, y_ratio=y, sd_ratio=sd_mm / self.rulers_mm)
+
+
+def printed_plate(
+    columns: int = 3,
+    rows: int = 3,
+    *,
+    pitch_mm: float = 60.0,
+    name: str = "A4-3x3",
+    sd_mm: float = PRINTED_SD_MM,
+) -> PlateFile:
+    """Return a printed plate with rulers; by default the one that fits on A4.
+
+    Raises:
+        InvalidInput: PLATE_INVALID.
+    """
+    divots = grid_of_divots(columns, rows, pitch_mm)
+    file = PlateFile(
+        name=name[:40],
+        sd_mm=sd_mm,
+        rulers_mm=float(RULER_MM),
+        divots={divot: list(point) for divot, point in divots.items()},
+    )
+    file.plate()
+    return file
+
+
+def printed_sheet(file: PlateFile, *, paper: str = "A4") -> Sheet:
+    """Return the page of a printed plate.
+
+    Raises:
+        InvalidInput: PLATE_TOO_LARGE.
+    """
+    return plate_sheet(file.plate().points_mm, name=file.name, paper=paper)
 
 
 def plate_file_in(text: str) -> PlateFile:

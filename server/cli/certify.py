@@ -15,7 +15,6 @@ from server.certificate import (
     CertifiedAudit,
     ExaminedSystem,
     Issue,
-    PlateFile,
     SigningKey,
     certificate_pdf,
     certified_faults,
@@ -23,6 +22,8 @@ from server.certificate import (
     examine,
     fault_rows,
     figure_rows,
+    printed_plate,
+    printed_sheet,
     text_of_plate_file,
     tracked_tool_of,
 )
@@ -33,8 +34,7 @@ from server.clock import utc_now
 from server.home_folder import home_folder
 from server.latency import LatencyResult
 from server.pose_file import Unit
-from server.printing import grid_of_divots, pdf_from_sheet, plate_sheet, svg_from_sheet
-from server.printing.plate_sheet import RULER_MM
+from server.printing import pdf_from_sheet, svg_from_sheet
 from server.security.audit.files import read_head_of
 from server.store.latency_file import LatencyFile
 from server.tool_file import load_tool_file
@@ -89,15 +89,8 @@ def write_plate(options: PlateOptions) -> None:
             {"file": str(options.output)},
         )
     columns, rows = size_of("--size", options.size)
-    divots = grid_of_divots(columns, rows, options.pitch_mm)
-    file = PlateFile(
-        name=options.name[:40],
-        sd_mm=options.sd_mm,
-        rulers_mm=float(RULER_MM),
-        divots={name: list(point) for name, point in divots.items()},
-    )
-    file.plate()
-    sheet = plate_sheet(divots, name=file.name, paper=options.paper)
+    file = printed_plate(columns, rows, pitch_mm=options.pitch_mm, name=options.name, sd_mm=options.sd_mm)
+    sheet = printed_sheet(file, paper=options.paper)
     write_atomically(
         options.output, pdf_from_sheet(sheet) if kind == ".pdf" else svg_from_sheet(sheet).encode()
     )
