@@ -10,7 +10,6 @@ from server.api.requester import MadeBy
 from server.certificate import (
     CertifiedAudit,
     PlateFile,
-    certified_figures,
     plate_file_in,
     printed_plate,
     printed_sheet,
@@ -24,7 +23,7 @@ from server.procedure.divot_capture import DivotCaptureState, PlannedCapture
 from server.security.audit.files import read_head_of
 from server.store import Home
 from server.stream.messages import Message, ProblemMessage, problem_message, translated_problem
-from tracker.accuracy import AccuracyAssessment, DivotCapture
+from tracker.accuracy import DivotCapture
 
 Label: TypeAlias = Annotated[str, Field(min_length=1, max_length=20)]
 RulerMm: TypeAlias = Annotated[float, Field(gt=0.0, le=1250.0, allow_inf_nan=False)]
@@ -58,6 +57,8 @@ class DivotMessage(Message):
     name: str
     x_mm: float
     y_mm: float
+    taken: int
+    """Captures in the present placement of the plate."""
 
 
 class TakenCaptureMessage(PlannedCaptureMessage):
@@ -80,15 +81,6 @@ class DivotCaptureMessage(PlannedCaptureMessage):
     """Why it was rejected."""
 
 
-class AccuracyFigureMessage(Message):
-    """A figure of the test with its 95 % interval; the unit is the ending of its name."""
-
-    name: str
-    value: float
-    low: float
-    high: float
-
-
 class AccuracyTestMessage(Message):
     """Progress of an accuracy test."""
 
@@ -106,8 +98,6 @@ class AccuracyTestMessage(Message):
     capture: DivotCaptureMessage | None
     error_95_mm: float | None
     """Of a complete test: with a confidence of 95 %, 95 % of single tips are this near to the truth."""
-    figures: list[AccuracyFigureMessage]
-    """Of a complete test."""
     problems: list[ProblemMessage]
     """What speaks against a certificate of a complete test."""
 
@@ -206,14 +196,11 @@ def _plate(text: str | None) -> PlateFile:
 
 def _message(status: AccuracyStatus) -> AccuracyTestMessage:
     plate, assessment, capture = status.system.plate, status.assessment, status.capture
-    used = dict.fromkeys(one.divot for one in status.planned)
     return AccuracyTestMessage(
         tool=status.tool,
         marker=status.system.marker,
         plate=plate.name,
-        divots=[
-            DivotMessage(name=name, x_mm=plate.divots[name][0], y_mm=plate.divots[name][1]) for name in used
-        ],
+        divots=_divots(status),
         planned=len(status.planned),
         taken=len(status.captures),
         due=None if status.due is None else PlannedCaptureMessage(**_names(status.due)),
@@ -228,9 +215,18 @@ def _message(status: AccuracyStatus) -> AccuracyTestMessage:
             problem=problem_message(capture.problem),
         ),
         error_95_mm=None if assessment is None else round_up(assessment.figures.error_95_mm),
-        figures=[] if assessment is None else _figures(assessment),
         problems=[translated_problem(one) for one in status.problems],
     )
+
+
+def _divots(status: AccuracyStatus) -> list[DivotMessage]:
+    points = status.system.plate.divots
+    placement = (status.due or status.planned[-1]).placement
+    taken = [one.divot for one in status.captures if one.placement == placement]
+    return [
+        DivotMessage(name=name, x_mm=points[name][0], y_mm=points[name][1], taken=taken.count(name))
+        for name in dict.fromkeys(one.divot for one in status.planned)
+    ]
 
 
 def _names(one: PlannedCapture | DivotCapture) -> dict[str, str]:
@@ -244,10 +240,3 @@ def _taken(one: DivotCapture) -> TakenCaptureMessage:
         jitter_mm=float(one.jitter_covariance_mm2.trace() ** 0.5),
         jitter_deg=one.jitter_deg,
     )
-
-
-def _figures(found: AccuracyAssessment) -> list[AccuracyFigureMessage]:
-    return [
-        AccuracyFigureMessage(name=one.name, value=one.value, low=one.low, high=one.high)
-        for one in certified_figures(found)
-    ]
