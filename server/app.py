@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from fastapi import Depends, FastAPI
 
 from server.alarms import AlarmService
+from server.api.accuracy import accuracy_router
 from server.api.alarms import alarms_router
 from server.api.audit import audit_router
 from server.api.body_drain import BodyDrainMiddleware
@@ -280,7 +281,10 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(latency_router(parts.steps.latency))
         app.include_router(markers_router(parts.steps.markers, parts.store.home))
         app.include_router(tools_router(parts.steps.tool))
-        app.include_router(certificates_router(parts.steps.certificates, parts.store.home))
+        app.include_router(
+            certificates_router(parts.steps.certificates, parts.steps.accuracy, parts.store.home)
+        )
+        app.include_router(accuracy_router(parts.steps.accuracy, parts.store.home))
         app.include_router(ct_router(parts.steps.ct, parts.steps.ct_provider, parts.store.home))
         app.include_router(navigation_ct_router(parts.steps.navigation_ct))
         app.include_router(placements_router(parts.steps.placement))

@@ -21,12 +21,24 @@ def yaml_in(path: Path, *, what: str, code: str, remedy: str) -> object:
     """
     context: dict[str, object] = {"file": str(path)}
     try:
-        values: object = yaml.safe_load(path.read_text(encoding="utf-8"))
+        return parsed_yaml(path.read_text(encoding="utf-8"))
     except OSError as error:
         why = (error.strerror or str(error)).lower()
         raise InvalidInput(code, f"the {what} {path} cannot be read: {why}", remedy, context) from error
-    except (ValueError, RecursionError, yaml.YAMLError) as error:
-        # Not UTF-8, an invalid date, or nested too deeply.
+    except ValueError as error:
         message = f"the {what} {path} is neither valid YAML nor JSON"
         raise InvalidInput(code, message, remedy, context) from error
+
+
+def parsed_yaml(text: str) -> object:
+    """Return the values of YAML or JSON.
+
+    Raises:
+        ValueError: it is neither.
+    """
+    try:
+        values: object = yaml.safe_load(text)
+    except (RecursionError, yaml.YAMLError) as error:
+        # Nested too deeply; an invalid date is a ValueError by itself.
+        raise ValueError(str(error)) from error
     return values

@@ -5,6 +5,7 @@ from fastapi import APIRouter, Request, Response
 
 from server.api.errors import rejections
 from server.api.uploads import received
+from server.procedure.accuracy import AccuracyStep
 from server.procedure.certificates import CertificateStep, ToolCertification
 from server.store import Home
 from server.stream.messages import Message, ProblemMessage, translated_problem
@@ -34,17 +35,19 @@ class ToolCertificationMessage(Message):
 class CertificatesMessage(Message):
     """The tools of the newest image; none before the first image."""
 
+    collecting: bool
+    """Whether an accuracy test is in progress: see `/api/certificates/collection`."""
     tools: list[ToolCertificationMessage]
 
 
-def certificates_router(step: CertificateStep, home: Home) -> APIRouter:
+def certificates_router(step: CertificateStep, accuracy: AccuracyStep, home: Home) -> APIRouter:
     """Return the router of `/api/certificates`."""
     router = APIRouter(prefix="/api/certificates", tags=["tools"])
 
     @router.get("", responses=rejections(503))
     def certificates() -> CertificatesMessage:
         """Return whether the tools in use are certified, with the reason if not."""
-        return CertificatesMessage(tools=[_message(one) for one in step.tools()])
+        return _message(step, accuracy)
 
     @router.post(
         "",
@@ -61,7 +64,7 @@ def certificates_router(step: CertificateStep, home: Home) -> APIRouter:
 
             def put() -> CertificatesMessage:
                 step.install(path.read_bytes())
-                return CertificatesMessage(tools=[_message(one) for one in step.tools()])
+                return _message(step, accuracy)
 
             return await to_thread.run_sync(put)
 
@@ -91,7 +94,11 @@ def _file(content: bytes, media_type: str, name: str) -> Response:
     return Response(content, media_type=media_type, headers=headers)
 
 
-def _message(one: ToolCertification) -> ToolCertificationMessage:
+def _message(step: CertificateStep, accuracy: AccuracyStep) -> CertificatesMessage:
+    return CertificatesMessage(collecting=accuracy.is_collecting, tools=[_tool(one) for one in step.tools()])
+
+
+def _tool(one: ToolCertification) -> ToolCertificationMessage:
     certificate = one.certificate
     return ToolCertificationMessage(
         tool=one.tool,

@@ -173,16 +173,21 @@ class Issue:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExaminedSystem:
-    """Camera, tool and plate of a test, as files."""
+    """Camera, tool and plate of a test.
+
+    Attributes:
+        camera: the camera, as in its file.
+        marker: name of the marker on the tool.
+        tool: camera, marker and tip for the assessment.
+        plate: the plate, as in its file.
+        scale: its measured scale; None for a printed plate that nobody measured, which is never certified.
+    """
 
     camera: CameraFile
-    tool: ToolFile
+    marker: str
+    tool: TrackedTool
     plate: PlateFile
-    scale: PlateScale
-
-    def tracked_tool(self) -> TrackedTool:
-        """Return camera, marker and tip for the assessment."""
-        return tracked_tool_of(self.camera, self.tool)
+    scale: PlateScale | None
 
 
 def tracked_tool_of(camera: CameraFile, tool: ToolFile) -> TrackedTool:
@@ -203,7 +208,8 @@ def certificate_of(
     Raises:
         InvalidInput: CERTIFICATE_REFUSED, the test has problems; CERTIFICATE_PERIOD_INVALID.
     """
-    if found.problems:
+    scale = system.scale
+    if found.problems or scale is None:
         raise InvalidInput(
             "CERTIFICATE_REFUSED",
             f"an accuracy test with {len(found.problems)} problems is not certified",
@@ -242,8 +248,8 @@ def certificate_of(
         ),
         volume=_volume(found, captures, system),
         camera=certified_camera(system.camera),
-        tool=certified_tool(system.tool),
-        plate=_plate(system),
+        tool=certified_tool(system.marker, system.tool),
+        plate=_plate(system.plate, scale),
         latency=None if issue.latency is None else _latency(issue.latency),
         audit=issue.audit,
     )
@@ -325,14 +331,13 @@ def calibration_sha256(model: CameraModel) -> str:
     )
 
 
-def certified_tool(file: ToolFile) -> CertifiedTool:
+def certified_tool(marker: str, tool: TrackedTool) -> CertifiedTool:
     """Return what a certificate states of a tool."""
-    x, y, z = file.pivot.tip_in_marker_mm
-    return CertifiedTool(marker=file.marker, side_mm=file.side_mm, tip_in_marker_mm=(x, y, z))
+    x, y, z = tool.tip_in_marker_mm.tolist()
+    return CertifiedTool(marker=marker, side_mm=tool.side_mm, tip_in_marker_mm=(x, y, z))
 
 
-def _plate(system: ExaminedSystem) -> CertifiedPlate:
-    plate, scale = system.plate, system.scale
+def _plate(plate: PlateFile, scale: PlateScale) -> CertifiedPlate:
     return CertifiedPlate(
         name=plate.name,
         divots=len(plate.divots),
@@ -358,7 +363,7 @@ def _latency(measured: LatencyResult) -> CertifiedLatency:
 def _volume(
     found: AccuracyAssessment, captures: Sequence[DivotCapture], system: ExaminedSystem
 ) -> CertifiedVolume:
-    volume = volume_map(captures, system.tracked_tool(), error_95_mm=found.figures.error_95_mm)
+    volume = volume_map(captures, system.tool, error_95_mm=found.figures.error_95_mm)
     low, high = (
         tuple(round(float(value), 1) for value in corner)
         for corner in (found.volume_min_mm, found.volume_max_mm)

@@ -15,14 +15,15 @@ from server.certificate import (
     CertifiedAudit,
     ExaminedSystem,
     Issue,
-    PlateFile,
     SigningKey,
-    certificate_of,
     certificate_pdf,
     certified_faults,
     certified_figures,
+    examine,
     fault_rows,
     figure_rows,
+    printed_plate,
+    printed_sheet,
     text_of_plate_file,
     tracked_tool_of,
 )
@@ -33,12 +34,11 @@ from server.clock import utc_now
 from server.home_folder import home_folder
 from server.latency import LatencyResult
 from server.pose_file import Unit
-from server.printing import grid_of_divots, pdf_from_sheet, plate_sheet, svg_from_sheet
-from server.printing.plate_sheet import RULER_MM
-from server.security.audit.files import read_head
+from server.printing import pdf_from_sheet, svg_from_sheet
+from server.security.audit.files import read_head_of
 from server.store.latency_file import LatencyFile
 from server.tool_file import load_tool_file
-from tracker.accuracy import AccuracyAssessment, AccuracyLimits, assess_accuracy
+from tracker.accuracy import AccuracyAssessment, AccuracyLimits
 from tracker.errors import InvalidInput
 
 REFUSED = 1
@@ -89,15 +89,8 @@ def write_plate(options: PlateOptions) -> None:
             {"file": str(options.output)},
         )
     columns, rows = size_of("--size", options.size)
-    divots = grid_of_divots(columns, rows, options.pitch_mm)
-    file = PlateFile(
-        name=options.name[:40],
-        sd_mm=options.sd_mm,
-        rulers_mm=float(RULER_MM),
-        divots={name: list(point) for name, point in divots.items()},
-    )
-    file.plate()
-    sheet = plate_sheet(divots, name=file.name, paper=options.paper)
+    file = printed_plate(columns, rows, pitch_mm=options.pitch_mm, name=options.name, sd_mm=options.sd_mm)
+    sheet = printed_sheet(file, paper=options.paper)
     write_atomically(
         options.output, pdf_from_sheet(sheet) if kind == ".pdf" else svg_from_sheet(sheet).encode()
     )
@@ -117,31 +110,27 @@ def issue_certificate(options: IssueOptions, *, as_json: bool) -> int:
     """
     camera, tool_file = read_camera_file(options.camera), load_tool_file(options.tool)
     plate_file = load_plate_file(options.plate)
-    tool = tracked_tool_of(camera, tool_file)
-    scale = plate_file.scale(_rulers(options.rulers_mm), sd_mm=options.ruler_sd_mm)
-    captures = load_captures(options.captures, tool_file, tool, unit=Unit(options.unit))
-    found = assess_accuracy(
-        captures,
-        plate_file.plate(),
-        tool,
-        plate_scale=scale,
-        limits=AccuracyLimits(max_error_95_mm=options.max_error_mm),
+    system = ExaminedSystem(
+        camera=camera,
+        marker=tool_file.marker,
+        tool=tracked_tool_of(camera, tool_file),
+        plate=plate_file,
+        scale=plate_file.scale(_rulers(options.rulers_mm), sd_mm=options.ruler_sd_mm),
     )
-    certificate = None
-    if scale is not None and not found.problems:
-        home = home_folder()
-        issue = Issue(
-            at=utc_now(),
-            valid_days=options.valid_days,
-            by=options.by[:80],
-            software_version=options.version,
-            audit=_audit(home),
-            latency=_latency(home, camera),
-        )
-        system = ExaminedSystem(camera=camera, tool=tool_file, plate=plate_file, scale=scale)
-        certificate = certificate_of(found, captures, system, issue)
+    captures = load_captures(options.captures, tool_file, system.tool, unit=Unit(options.unit))
+    home = home_folder()
+    issue = Issue(
+        at=utc_now(),
+        valid_days=options.valid_days,
+        by=options.by[:80],
+        software_version=options.version,
+        audit=_audit(home),
+        latency=_latency(home, camera),
+    )
+    found = examine(captures, system, issue, limits=AccuracyLimits(max_error_95_mm=options.max_error_mm))
+    certificate = found.certificate
     written = [] if certificate is None else _write(certificate, options.output)
-    _print(found, certificate, written, as_json=as_json)
+    _print(found.assessment, certificate, written, as_json=as_json)
     return REFUSED if certificate is None else 0
 
 
@@ -226,7 +215,7 @@ def _rulers(text: str | None) -> tuple[float, float] | None:
 
 
 def _audit(home: Path) -> CertifiedAudit | None:
-    head = read_head(home / "security" / "audit-head.json")
+    head = read_head_of(home)
     return None if head is None else CertifiedAudit(lines=head.count, sha256=head.sum)
 
 

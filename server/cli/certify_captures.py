@@ -5,7 +5,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationError
 
-from server.certificate.plate_file import DivotName, PlateFile
+from server.certificate.plate_file import REMEDY as PLATE_REMEDY
+from server.certificate.plate_file import DivotName, PlateFile, plate_file_from
 from server.config import Section
 from server.pose_file import Unit, read_poses
 from server.tool_file import ToolFile
@@ -13,7 +14,6 @@ from server.yaml_file import yaml_in
 from tracker.accuracy import DivotCapture, TrackedTool, capture_at_rest
 from tracker.errors import InvalidInput
 
-PLATE_REMEDY = "Write one with 'coaxial certify plate --output plate.pdf', or give name, sd_mm and divots."
 REMEDY = (
     "A captures file is YAML or JSON with captures: a list of divot, placement, posture and poses, the path "
     "of the poses beside this file."
@@ -49,20 +49,12 @@ def load_plate_file(path: Path) -> PlateFile:
         InvalidInput: PLATE_FILE_UNREADABLE or PLATE_FILE_INVALID; the message names the file.
     """
     values = yaml_in(path, what="plate file", code="PLATE_FILE_UNREADABLE", remedy=PLATE_REMEDY)
-    if isinstance(values, dict) and isinstance(divots := values.get("divots"), dict):
-        # YAML reads a name of digits, and a coordinate without a point, as an integer.
-        values = {**values, "divots": {str(name): _floats(point) for name, point in divots.items()}}
     try:
-        return PlateFile.model_validate(values)
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        key = ".".join(str(part)[:40] for part in first["loc"]) or "it"
+        return plate_file_from(values)
+    except InvalidInput as error:
         raise InvalidInput(
-            "PLATE_FILE_INVALID",
-            f"the plate file {path} cannot be used: {key}: {first['msg'].lower()[:200]}",
-            PLATE_REMEDY,
-            {"file": str(path)},
-        ) from None
+            error.code, f"{path}: {error.message}", error.remedy, {**error.context, "file": str(path)}
+        ) from error
 
 
 def load_captures(path: Path, tool_file: ToolFile, tool: TrackedTool, *, unit: Unit) -> list[DivotCapture]:
@@ -127,9 +119,3 @@ def _with_texts(values: object) -> object:
         for one in captures
     ]
     return {**values, "captures": texts}
-
-
-def _floats(point: object) -> object:
-    if not isinstance(point, list):
-        return point
-    return [float(one) if isinstance(one, int) and not isinstance(one, bool) else one for one in point]

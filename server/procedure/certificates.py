@@ -13,10 +13,11 @@ from server.certificate import (
 )
 from server.clock import Clock, utc_now
 from server.live import LiveHub
+from server.procedure.divot_capture import reject_uncalibrated
 from server.procedure.markers import MarkerStep
 from server.store import NotFound
 from tracker.errors import InvalidInput
-from tracker.navigation.snapshot import Setup
+from tracker.navigation import NavigationSnapshot
 from tracker.pose import ToolModel
 
 
@@ -72,14 +73,14 @@ class CertificateStep:
         newest = self._hub.newest
         if newest is None or newest.snapshot is None:
             return ()
-        setup, camera = newest.snapshot.setup, newest.source.camera
+        snapshot, camera = newest.snapshot, newest.source.camera
         device = "" if camera is None else camera.device
         certificates = {one.certificate.tool.marker: one.certificate for one in self._installed.all()}
         sides_mm = {known.model.name: known.model.side_mm for known in self._markers.known()}
         found = []
-        for name, tool in sorted(setup.tools.items()):
+        for name, tool in sorted(snapshot.setup.tools.items()):
             certificate, side_mm = certificates.get(tool.marker), sides_mm.get(tool.marker)
-            problem = self._problem(certificate, setup, tool, side_mm=side_mm, device=device)
+            problem = self._problem(certificate, snapshot, tool, side_mm=side_mm, device=device)
             found.append(
                 ToolCertification(tool=name, marker=tool.marker, certificate=certificate, problem=problem)
             )
@@ -121,7 +122,7 @@ class CertificateStep:
     def _problem(
         self,
         certificate: Certificate | None,
-        setup: Setup,
+        snapshot: NavigationSnapshot,
         tool: ToolModel,
         *,
         side_mm: float | None,
@@ -134,14 +135,12 @@ class CertificateStep:
                 "Do the accuracy test, and install its certificate.",
                 {"marker": tool.marker[:40]},
             )
-        if not setup.camera_calibrated:
-            return InvalidInput(
-                "CERTIFICATE_NOT_APPLICABLE",
-                "the camera is not calibrated, or its focus or zoom has changed: no certificate applies",
-                "Calibrate the camera, or restore focus and zoom.",
-            )
+        try:
+            reject_uncalibrated(snapshot)
+        except InvalidInput as error:
+            return error
         system = SystemInUse(
-            camera=CameraInUse(model=setup.camera, device=device or None),
+            camera=CameraInUse(model=snapshot.setup.camera, device=device or None),
             # A side that is not known equals no other.
             tool=ToolInUse(
                 marker=tool.marker,

@@ -15,6 +15,7 @@ from server.config import Config
 from server.installation import product_version
 from server.jobs import Jobs
 from server.live import LiveHub
+from server.procedure.accuracy import AccuracyStep, CalibratedCameraFinder
 from server.procedure.camera import CameraStep
 from server.procedure.certificates import CertificateStep
 from server.procedure.channel_proposal import ChannelProposer
@@ -58,6 +59,7 @@ class Steps:
         readout: measures the readout time of the camera.
         latency: measures the latency from the scene to the page.
         certificates: whether the accuracy of the tools in use is certified.
+        accuracy: tests the accuracy of a tool, and issues its certificate.
         markers: stores images of markers.
         tool: calibrates tools.
         ct: imports a CT.
@@ -77,6 +79,7 @@ class Steps:
     readout: ReadoutStep
     latency: LatencyStep
     certificates: CertificateStep
+    accuracy: AccuracyStep
     markers: MarkerStep
     tool: ToolStep
     ct: CtStep
@@ -145,6 +148,7 @@ class Steps:
             run=procedure.run,
             max_age_s=config.limits.video_stale_after_ms / 1000.0,
         )
+        installed = InstalledCertificates(store.home.folder)
         channel_proposer = ChannelProposer(placement)
         store.add_commit_listener(channel_proposer.refresh)
         channel_proposer.refresh()
@@ -160,9 +164,19 @@ class Steps:
             ),
             certificates=CertificateStep(
                 hub=hub,
-                installed=InstalledCertificates(store.home.folder),
+                installed=installed,
                 markers=marker_step,
                 software_version=product_version(),
+            ),
+            accuracy=AccuracyStep(
+                hub=hub,
+                store=store,
+                installed=installed,
+                markers=marker_step,
+                latencies=latencies,
+                cameras=CalibratedCameraFinder(
+                    store, source=defaults.source, calibration=config.camera.calibration
+                ),
             ),
             markers=marker_step,
             tool=_tool_step(hub, store, config, marker_step),
@@ -187,6 +201,7 @@ class Steps:
         self.readout.end()
         self.latency.end()
         self.tool.end()
+        self.accuracy.end()
         self.registration.close()
 
 

@@ -91,6 +91,8 @@ GET     /api/camera/calibration
 GET     /api/camera/readout
 GET     /api/camera/readout/collection
 GET     /api/latency/measurement
+GET     /api/certificates/plate.pdf
+GET     /api/certificates/collection
 GET     /api/certificates/{marker}/json
 GET     /api/certificates/{marker}/pdf
 GET     /api/markers
@@ -178,6 +180,11 @@ POST    /api/latency/measurement
 DELETE  /api/latency/measurement
 POST    /api/latency/measurement/conclusion
 POST    /api/certificates
+POST    /api/certificates/collection
+DELETE  /api/certificates/collection
+POST    /api/certificates/collection/captures
+DELETE  /api/certificates/collection/captures/last
+POST    /api/certificates/collection/conclusion
 POST    /api/markers
 DELETE  /api/markers/{name}
 POST    /api/tools/collection

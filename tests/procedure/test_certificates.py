@@ -1,11 +1,11 @@
 """Accuracy certificates through the API: installed, valid for the tools in use, and void after a change."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from server.camera_file import CameraFile
@@ -20,26 +20,11 @@ from server.certificate import (
     verified,
 )
 from server.installation import product_version
-from server.tool_file import PivotPart, ToolFile
 from tests.procedure.conftest import Server, serving
 from tests.tracker.accuracy.test_accuracy_assessment import MEASURED, PLATE, POINTS, SOUND, captures_of
 from tracker.accuracy import assess_accuracy
-from tracker.geometry import Array
 
 NOW = datetime.now(UTC)
-
-
-def tool_file(tip_mm: Array, *, marker: str = "awl") -> ToolFile:
-    pivot = PivotPart(
-        tip_in_marker_mm=[float(value) for value in tip_mm],
-        covariance_mm2=(0.05**2 * np.eye(3)).tolist(),
-        rms_3d_mm=0.1,
-        used=60,
-        rejected=0,
-        tilt_range_deg=60.0,
-        made_at=NOW,
-    )
-    return ToolFile(marker=marker, side_mm=SOUND.side_mm, pivot=pivot)
 
 
 def certificate_for(server: Server, *, at: datetime = NOW, marker: str = "drill") -> Certificate:
@@ -54,7 +39,8 @@ def certificate_for(server: Server, *, at: datetime = NOW, marker: str = "drill"
     )
     tested = ExaminedSystem(
         camera=CameraFile(model=setup.camera, camera_name="main"),
-        tool=tool_file(tool.marker_from_tool.translation_mm, marker=marker),
+        marker=marker,
+        tool=replace(system.tool, tip_in_marker_mm=tool.marker_from_tool.translation_mm),
         plate=plate,
         scale=MEASURED,
     )

@@ -98,7 +98,7 @@ def assess_accuracy(
     tips = np.array([one.tip_in_camera_mm for one in captures])
     problems = [
         *_fault_problems(diagnosis, limits, is_measured=plate_scale is not None),
-        *_plate_problems(plate_scale, limits),
+        *plate_problems(plate_scale, limits),
         *_figure_problems(figures, limits),
     ]
     return AccuracyAssessment(
@@ -138,7 +138,9 @@ def _reject_too_few(captures: Sequence[DivotCapture], limits: AccuracyLimits) ->
     )
 
 
-def _plate_problems(scale: PlateScale | None, limits: AccuracyLimits) -> list[CalibrationError]:
+def plate_problems(scale: PlateScale | None, limits: AccuracyLimits | None = None) -> list[CalibrationError]:
+    """Return the reasons why nothing is certified with a plate of this scale, known before any capture."""
+    limits = limits or AccuracyLimits()
     if scale is None:
         return [
             CalibrationError(

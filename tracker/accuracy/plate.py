@@ -67,6 +67,18 @@ class DivotPlate:
         between = np.linalg.norm(points[:, None] - points[None], axis=2)
         return float(between[np.triu_indices(len(points), 1)].min(initial=np.inf))
 
+    def spread(self, count: int) -> tuple[str, ...]:
+        """Return up to `count` divots far from each other (farthest point sampling), in the plate's order."""
+        names, points = list(self.points_mm), np.array(list(self.points_mm.values()), dtype=np.float64)
+        nearest_mm = np.linalg.norm(points - points.mean(axis=0), axis=1)
+        chosen: list[int] = []
+        for _ in range(min(count, len(names))):
+            farthest = int(nearest_mm.argmax())
+            distances_mm = np.linalg.norm(points - points[farthest], axis=1)
+            nearest_mm = np.minimum(nearest_mm, distances_mm) if chosen else distances_mm
+            chosen.append(farthest)
+        return tuple(names[one] for one in sorted(chosen))
+
     def points_of(self, names: list[str]) -> Array:
         """Return the positions (n, 3) of divots by name.
 

@@ -92,6 +92,16 @@ def fit_plate(plate: DivotPlate, captures: Sequence[DivotCapture]) -> PlateFit:
     return fit
 
 
+def reject_wrong_divot(plate: DivotPlate, captures: Sequence[DivotCapture]) -> None:
+    """Reject captures of one placement with a tip that is nearer to another divot; too few are accepted.
+
+    Raises:
+        InvalidInput: DIVOT_UNKNOWN or ACCURACY_WRONG_DIVOT.
+    """
+    if not _is_small(captures):
+        fit_plate(plate, captures)
+
+
 def _procrustes(plate_mm: Array, tips_mm: Array) -> Rigid[Camera, Pattern]:
     """Return the rigid motion of least squares (Arun, Huang and Blostein 1987; without reflection)."""
     middle, centre = plate_mm.mean(axis=0), tips_mm.mean(axis=0)
@@ -100,10 +110,14 @@ def _procrustes(plate_mm: Array, tips_mm: Array) -> Rigid[Camera, Pattern]:
     return Rigid(rotation=rotation, translation_mm=centre - rotation @ middle)
 
 
+def _is_small(captures: Sequence[DivotCapture]) -> bool:
+    divots = {one.divot for one in captures}
+    return len(divots) < MIN_DIVOTS_PER_PLACEMENT or len(captures) - len(divots) < MIN_AGAIN_PER_PLACEMENT
+
+
 def _reject_small(placement: str, captures: Sequence[DivotCapture]) -> None:
     divots = {one.divot for one in captures}
-    again = len(captures) - len(divots)
-    if len(divots) < MIN_DIVOTS_PER_PLACEMENT or again < MIN_AGAIN_PER_PLACEMENT:
+    if _is_small(captures):
         raise InvalidInput(
             "ACCURACY_PLACEMENT_SMALL",
             f"the placement '{placement[:20]}' has {len(captures)} captures of {len(divots)} divots, needed "

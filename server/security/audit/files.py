@@ -55,6 +55,11 @@ def read_head(file: Path) -> Head | None:
         return None
 
 
+def read_head_of(home: Path) -> Head | None:
+    """Return the stored end of the audit log of a home folder; None without one."""
+    return read_head(home / "security" / "audit-head.json")
+
+
 def write_head(file: Path, head: Head) -> None:
     """Store the end of the chain.
 

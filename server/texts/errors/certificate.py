@@ -5,6 +5,12 @@ from collections.abc import Mapping
 from server.texts.language import Text
 
 CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
+    "ACCURACY_CAPTURE_ORDER": (
+        {
+            "en": "the next capture is {due}, not {requested}",
+            "de": "die nächste Aufnahme ist {due}, nicht {requested}",
+        },
+    ),
     "ACCURACY_CAPTURE_MOVED": (
         {
             "en": "the tip moved in the capture {capture}: standard deviation {sd_mm:.2f} mm, allowed "
@@ -63,6 +69,9 @@ CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
             "des Markers ist zu {wrong_way}",
         },
     ),
+    "ACCURACY_NOTHING_CAPTURED": (
+        {"en": "there is no capture to discard", "de": "es gibt keine Aufnahme zu verwerfen"},
+    ),
     "ACCURACY_PLACEMENT_SMALL": (
         {
             "en": "the placement '{placement}' has {captures} captures of {divots} divots, needed "
@@ -85,6 +94,14 @@ CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
             "de": "die Maßstäbe der gedruckten Platte wurden nicht gemessen, ihre Größe ist unbekannt",
         },
     ),
+    "ACCURACY_POSTURE_REPEATED": (
+        {
+            "en": "the tool is rotated by {rotation_deg:.1f} degrees between the captures {other} and "
+            "{capture}, needed {needed_deg:g} degrees",
+            "de": "das Instrument ist zwischen den Aufnahmen {other} und {capture} um {rotation_deg:.1f}° "
+            "gedreht, nötig {needed_deg:g}°",
+        },
+    ),
     "ACCURACY_PRINT_SCALE": (
         {
             "en": "the plate is printed {size_ratio:.2%} (sd {sd_ratio:.2%}) too {wrong_way}, or the stated "
@@ -102,12 +119,38 @@ CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
             "(95-%-Intervall {low_ratio:.0%} bis {high_ratio:.0%})",
         },
     ),
+    "ACCURACY_SYSTEM_CHANGED": (
+        {
+            "en": "the camera, the tool or a calibration has changed during the accuracy test",
+            "de": "Kamera, Instrument oder eine Kalibrierung wurde während des Genauigkeitstests geändert",
+        },
+    ),
+    "ACCURACY_TEST_COMPLETE": (
+        {
+            "en": "all {captures} captures of the accuracy test are taken",
+            "de": "alle {captures} Aufnahmen des Genauigkeitstests sind gemacht",
+        },
+    ),
+    "ACCURACY_TEST_INCOMPLETE": (
+        {
+            "en": "{captures} of {planned} captures of the accuracy test are taken",
+            "de": "{captures} von {planned} Aufnahmen des Genauigkeitstests sind gemacht",
+        },
+    ),
     "ACCURACY_TIP_OFFSET": (
         {
             "en": "the tip of the tool is {size_mm:.2f} mm (sd {sd_mm:.2f}) from where it is stated, allowed "
             "{allowed_mm:.2f} mm with its uncertainty",
             "de": "die Spitze des Instruments liegt {size_mm:.2f} mm (SD {sd_mm:.2f}) neben der Angabe, "
             "erlaubt {allowed_mm:.2f} mm mit der Unsicherheit",
+        },
+    ),
+    "ACCURACY_TIP_UNSEEN": (
+        {
+            "en": "the tip was measured in {seen} of {images} images of the capture {capture}, needed "
+            "{needed}",
+            "de": "die Spitze wurde in {seen} von {images} Bildern der Aufnahme {capture} gemessen, nötig "
+            "{needed}",
         },
     ),
     "ACCURACY_TOO_FEW_CAPTURES": (
@@ -213,6 +256,18 @@ CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the plate '{plate}' has no divot '{divot}'",
             "de": "die Platte „{plate}“ hat keine Mulde „{divot}“",
+        },
+    ),
+    "PLATE_FILE_INVALID": (
+        {
+            "en": "the plate file cannot be used: {why}",
+            "de": "die Plattendatei ist nicht brauchbar: {why}",
+        },
+    ),
+    "PLATE_FILE_UNREADABLE": (
+        {
+            "en": "the plate file is neither valid YAML nor JSON",
+            "de": "die Plattendatei ist weder gültiges YAML noch JSON",
         },
     ),
     "PLATE_INVALID": (

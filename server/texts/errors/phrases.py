@@ -142,6 +142,7 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
     "collection": (
         {"en": "collection of board views is", "de": "keine Aufnahme von Ansichten der Tafel"},
         {"en": "latency measurement is", "de": "keine Latenzmessung"},
+        {"en": "accuracy test is", "de": "kein Genauigkeitstest"},
         {"en": "readout measurement is", "de": "keine Messung der Auslesezeit"},
         {"en": "collection of tool poses is", "de": "keine Aufnahme von Lagen des Instruments"},
         {"en": "check is", "de": "keine Prüfung"},

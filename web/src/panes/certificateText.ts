@@ -5,7 +5,7 @@ import type { CertificateTexts } from "../texts/certificate/en";
 import { interpolate } from "../texts/interpolate";
 
 /** The tools are named only where there are several. Without images none is known, and nothing is certified. */
-export function certificateText({ tools }: Certificates, texts: CertificateTexts): string {
+export function certificateText({ tools }: Pick<Certificates, "tools">, texts: CertificateTexts): string {
   if (tools.length === 0) return texts.notCertified;
   if (tools.length === 1) return tools.map((one) => toolCertificateText(one, texts)).join("");
   return tools

@@ -8,6 +8,31 @@ CERTIFICATE: tuple[Text, ...] = (
         "de": "Die Spitze länger in der Mulde halten und diese Aufnahme wiederholen.",
     },
     {
+        "en": "Hold the tool so that its marker faces the camera and is not covered, and record this capture "
+        "again.",
+        "de": "Das Instrument so halten, dass sein Marker zur Kamera zeigt und nicht verdeckt ist, und diese "
+        "Aufnahme wiederholen.",
+    },
+    {
+        "en": "Hold the tool upright, then tilted by about 30 degrees, then turned about its axis.",
+        "de": "Das Instrument aufrecht halten, dann um etwa 30° geneigt, dann um seine Achse gedreht.",
+    },
+    {
+        "en": "Issue the certificate, or discard the last capture.",
+        "de": "Das Zertifikat ausstellen oder die letzte Aufnahme verwerfen.",
+    },
+    {"en": "Do the captures in their order.", "de": "Die Aufnahmen in ihrer Reihenfolge machen."},
+    {"en": "Capture the first divot.", "de": "Die erste Mulde aufnehmen."},
+    {"en": "Take the captures that are missing.", "de": "Die fehlenden Aufnahmen machen."},
+    {
+        "en": "Begin the accuracy test again.",
+        "de": "Den Genauigkeitstest neu beginnen.",
+    },
+    {
+        "en": "Begin an accuracy test with a tool and a plate.",
+        "de": "Einen Genauigkeitstest mit einem Instrument und einer Platte beginnen.",
+    },
+    {
         "en": "Rest the hand, hold the tip still in the divot, and record this capture again.",
         "de": "Die Hand auflegen, die Spitze in der Mulde stillhalten und diese Aufnahme wiederholen.",
     },
@@ -121,6 +146,11 @@ CERTIFICATE: tuple[Text, ...] = (
     {
         "en": "Check it with the version of Coaxial that issued it.",
         "de": "Mit der Version von Coaxial prüfen, die es ausgestellt hat.",
+    },
+    {
+        "en": "Write one with 'coaxial certify plate --output plate.pdf', or give name, sd_mm and divots.",
+        "de": "Eine mit 'coaxial certify plate --output plate.pdf' schreiben, oder name, sd_mm und divots "
+        "angeben.",
     },
     {"en": "Name one of its divots: {divots}.", "de": "Eine ihrer Mulden nennen: {divots}."},
     {

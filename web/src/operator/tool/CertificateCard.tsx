@@ -12,6 +12,8 @@ import { FileButton } from "../parts/FileButton";
 import { sentence } from "../parts/format";
 import { uploadFile } from "../parts/transfer";
 import { useTransfer } from "../parts/useTransfer";
+import { AccuracyBegin } from "./AccuracyBegin";
+import { AccuracyTest } from "./AccuracyTest";
 
 /** Whether each tool in use is certified and why not; installs a certificate, and gives it out. */
 export function CertificateCard(): ReactNode {
@@ -54,6 +56,16 @@ export function CertificateCard(): ReactNode {
         {texts.install}
       </FileButton>
       <RejectionNote rejection={installing.rejection} />
+      {query.data !== null && (
+        <details className="more" open={query.data.collecting} data-testid="accuracy">
+          <summary>{texts.guided.test}</summary>
+          {query.data.collecting ? (
+            <AccuracyTest onOver={query.refetch} />
+          ) : (
+            <AccuracyBegin tools={query.data.tools.map((one) => one.tool)} onBegun={query.refetch} />
+          )}
+        </details>
+      )}
     </Card>
   );
 }

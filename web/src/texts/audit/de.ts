@@ -55,6 +55,12 @@ export const auditDe: AuditTexts = {
     "DELETE /api/latency/measurement": "Hat das Messen der Verzögerung beendet",
     "POST /api/latency/measurement/conclusion": "Hat die Verzögerung gemessen",
     "POST /api/certificates": "Hat ein Genauigkeitszertifikat installiert",
+    "POST /api/certificates/collection": "Hat einen Genauigkeitstest begonnen",
+    "DELETE /api/certificates/collection": "Hat einen Genauigkeitstest beendet",
+    "POST /api/certificates/collection/captures": "Hat eine Mulde eines Genauigkeitstests aufgenommen",
+    "DELETE /api/certificates/collection/captures/last":
+      "Hat eine Aufnahme eines Genauigkeitstests verworfen",
+    "POST /api/certificates/collection/conclusion": "Hat ein Genauigkeitszertifikat ausgestellt",
     "POST /api/markers": "Hat das Bild eines Markers gesendet",
     "DELETE /api/markers/{name}": "Hat einen Marker entfernt",
     "POST /api/tools/collection": "Hat begonnen, ein Instrument zu kalibrieren oder zu prüfen",

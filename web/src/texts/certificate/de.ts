@@ -2,7 +2,7 @@ import type { CertificateTexts } from "./en";
 
 export const certificateDe: CertificateTexts = {
   title: "Genauigkeitszertifikat",
-  lead: "Gibt an, wie weit eine Spitze mit dieser Kamera, diesem Instrument und dieser Version von der Wahrheit abweichen kann. Es kommt aus einem Test auf einer Platte mit Mulden: „coaxial certify“ im Handbuch.",
+  lead: "Gibt an, wie weit eine Spitze mit dieser Kamera, diesem Instrument und dieser Version von der Wahrheit abweichen kann. Es kommt aus einem Test auf einer Platte mit Mulden: hier testen oder mit „coaxial certify“.",
   accuracy: "Genauigkeit",
   certified: "zertifiziert bis {day} auf {mm} mm",
   notCertified: "nicht zertifiziert",
@@ -14,4 +14,46 @@ export const certificateDe: CertificateTexts = {
   pdf: "Zertifikat als PDF",
   json: "Zertifikat als JSON",
   guide: "Die Genauigkeit testen",
+  guided: {
+    test: "Die Genauigkeit jetzt testen",
+    testLead:
+      "Dauert zehn Minuten. Die Platte mit 100 % drucken, flach auf ein steifes Brett kleben und beide Maßstäbe messen.",
+    print: "Die Platte drucken",
+    plateFile: "Eine Plattendatei benutzen",
+    plateChosen: "Plattendatei: {name}",
+    defaultPlate: "Die gedruckte Platte benutzen",
+    rulerX: "Maßstab quer zur Seite",
+    rulerY: "Maßstab längs der Seite",
+    rulersHint: "Wie gemessen; leer nur für eine Platte ohne Maßstäbe",
+    noTool: "Kein Instrument wird verwendet. Zuerst Spitze und Achse kalibrieren.",
+    tool: "Instrument",
+    begin: "Den Test beginnen",
+    doing: "Genauigkeitstest: {tool}",
+    plate: "Platte mit Mulden; die Spitze gehört in Mulde {divot}",
+    plateDone: "Platte mit Mulden",
+    place: {
+      near: "Die Platte an das nahe Ende des Arbeitsabstands stellen, um 30° und mehr zur Kamera geneigt. Bis zum Ende dieser Aufstellung weder Platte noch Kamera bewegen.",
+      middle:
+        "Die Platte in die Mitte des Arbeitsabstands stellen, zur Kamera geneigt. Danach weder Platte noch Kamera bewegen.",
+      far: "Die Platte an das ferne Ende des Arbeitsabstands stellen, zur Kamera geneigt. Danach weder Platte noch Kamera bewegen.",
+    },
+    hold: {
+      upright: "Mulde {divot}: das Instrument aufrecht mit der Spitze hineinhalten, dann aufnehmen.",
+      tilted: "Mulde {divot}: das Instrument mit der Spitze darin um etwa 30° neigen, dann aufnehmen.",
+      turned:
+        "Mulde {divot}: das Instrument mit der Spitze darin um etwa 30° um seine Achse drehen, dann aufnehmen.",
+    },
+    other: "Mulde {divot}, {posture}, {placement}: die Spitze hineinhalten, dann aufnehmen.",
+    looking: "Mulde {divot}: stillhalten. {seen} von {images} Bildern mit der Spitze.",
+    complete: "Alle Aufnahmen sind gemacht: nichts spricht gegen ein Zertifikat über {mm} mm.",
+    refused: "Alle Aufnahmen sind gemacht, und der Test ist nicht bestanden:",
+    progress: "{taken} von {planned} Aufnahmen",
+    last: "Letzte Aufnahme, Mulde {divot}: Zittern {mm} mm und {deg}° in {images} Bildern",
+    capture: "Aufnehmen",
+    discard: "Die letzte Aufnahme verwerfen",
+    discardSure: "Ja, verwerfen",
+    issue: "Das Zertifikat ausstellen",
+    end: "Den Test beenden",
+    endSure: "Ja, alle Aufnahmen verwerfen",
+  },
 };

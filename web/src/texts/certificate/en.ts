@@ -1,6 +1,6 @@
 export const certificateEn = {
   title: "Accuracy certificate",
-  lead: "States how far a tip may be from the truth with this camera, tool and version. It comes from a test on a plate with divots: “coaxial certify” in the guide.",
+  lead: "States how far a tip may be from the truth with this camera, tool and version. It comes from a test on a plate with divots: test it here, or with “coaxial certify”.",
   accuracy: "Accuracy",
   certified: "certified until {day} to {mm} mm",
   notCertified: "not certified",
@@ -12,6 +12,47 @@ export const certificateEn = {
   pdf: "Certificate as PDF",
   json: "Certificate as JSON",
   guide: "How to test the accuracy",
+  guided: {
+    test: "Test the accuracy now",
+    testLead:
+      "Takes ten minutes. Print the plate at 100 %, glue it flat on a rigid board, and measure both rulers.",
+    print: "Print the plate",
+    plateFile: "Use a plate file",
+    plateChosen: "Plate file: {name}",
+    defaultPlate: "Use the printed plate",
+    rulerX: "Ruler across the page",
+    rulerY: "Ruler down the page",
+    rulersHint: "As measured; empty only for a plate without rulers",
+    noTool: "No tool is in use. Calibrate tip and axis first.",
+    tool: "Tool",
+    begin: "Begin the test",
+    doing: "Accuracy test: {tool}",
+    plate: "Plate with divots; the tip goes to divot {divot}",
+    plateDone: "Plate with divots",
+    place: {
+      near: "Put the plate at the near end of the working distance, tilted by 30° and more to the camera. Do not move it or the camera until this placement is complete.",
+      middle:
+        "Move the plate to the middle of the working distance, tilted to the camera. Then do not move it or the camera.",
+      far: "Move the plate to the far end of the working distance, tilted to the camera. Then do not move it or the camera.",
+    },
+    hold: {
+      upright: "Divot {divot}: hold the tool upright with its tip in it, then capture.",
+      tilted: "Divot {divot}: tilt the tool by about 30° with its tip in it, then capture.",
+      turned: "Divot {divot}: turn the tool by about 30° about its axis with its tip in it, then capture.",
+    },
+    other: "Divot {divot}, {posture}, {placement}: hold the tip in it, then capture.",
+    looking: "Divot {divot}: hold still. {seen} of {images} images with the tip.",
+    complete: "All captures are taken: nothing speaks against a certificate of {mm} mm.",
+    refused: "All captures are taken, and the test is refused:",
+    progress: "{taken} of {planned} captures",
+    last: "Last capture, divot {divot}: jitter {mm} mm and {deg}° in {images} images",
+    capture: "Capture",
+    discard: "Discard the last capture",
+    discardSure: "Yes, discard it",
+    issue: "Issue the certificate",
+    end: "End the test",
+    endSure: "Yes, discard all captures",
+  },
 };
 
 export type CertificateTexts = typeof certificateEn;
