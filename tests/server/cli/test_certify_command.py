@@ -96,7 +96,7 @@ def test_the_scale_of_a_machined_plate_is_as_uncertain_wherever_its_origin_is() 
         assert scale.sd_ratio == pytest.approx(0.05 / 100.0)
 
 
-@pytest.mark.parametrize("divots", [{}, dict.fromkeys("1234", [0.0, 0.0, 0.0])])
+@pytest.mark.parametrize("divots", [{}, {name: [0.0, 0.0, 0.0] for name in "1234"}])
 def test_a_machined_plate_without_distances_is_rejected(divots: dict[str, list[float]]) -> None:
     with pytest.raises(NavigationError) as raised:
         PlateFile(name="lab", sd_mm=0.05, divots=divots).scale(None, sd_mm=0.2)
