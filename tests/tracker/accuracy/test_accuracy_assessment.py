@@ -201,6 +201,14 @@ def test_one_wrong_name_of_a_divot_is_named_and_not_averaged() -> None:
     assert raised.value.code == "ACCURACY_WRONG_DIVOT"
 
 
+def test_the_same_poses_as_two_captures_are_rejected() -> None:
+    captures = captures_of(SOUND)
+    captures[1] = replace(captures[0], posture="tilted")
+    with pytest.raises(InvalidInput, match=r"upright and .* tilted have the same") as raised:
+        assess_accuracy(captures, PLATE, SOUND.tool, plate_scale=MEASURED)
+    assert raised.value.code == "ACCURACY_CAPTURE_REPEATED"
+
+
 def test_few_captures_are_refused_before_any_figure() -> None:
     captures = [one for one in captures_of(SOUND) if one.posture == "upright"]
     with pytest.raises(InvalidInput) as raised:
