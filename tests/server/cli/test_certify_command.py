@@ -205,6 +205,17 @@ def test_an_altered_certificate_is_an_error(certificate: Path) -> None:
     assert raised.value.code == "CERTIFICATE_ALTERED"
 
 
+def test_poses_that_were_tracked_with_another_calibration_are_rejected(tmp_path: Path) -> None:
+    """Otherwise a certificate would be of a camera file that nobody tested."""
+    words = rehearsed(tmp_path / "test")
+    camera = tmp_path / "test" / "camera.yaml"
+    values = yaml.safe_load(camera.read_text())
+    camera.write_text(yaml.safe_dump({**values, "distortion": [0.001, 0.0, 0.0, 0.0, 0.0]}))
+    with pytest.raises(NavigationError) as raised:
+        typed(*words)
+    assert raised.value.code == "POSES_OF_ANOTHER_CAMERA"
+
+
 def test_a_plate_is_printed_with_its_definition(tmp_path: Path) -> None:
     typed("plate", "--output", tmp_path / "plate.pdf", "--size", "3x4", "--pitch-mm", "50")
     assert (tmp_path / "plate.pdf").read_bytes().startswith(b"%PDF-1.4")
