@@ -46,7 +46,8 @@ class PlateFile(Section):
             sd_mm: Standard deviation of these lengths.
 
         Raises:
-            InvalidInput: PLATE_RULERS_INVALID, lengths of other rulers, or for a plate without rulers.
+            InvalidInput: PLATE_RULERS_INVALID, lengths of other rulers, or for a plate without rulers;
+                PLATE_INVALID.
         """
         if self.rulers_mm is None:
             if measured_mm is not None:
@@ -56,8 +57,8 @@ class PlateFile(Section):
                     "Give no lengths of rulers for a plate whose divots were measured.",
                     {"plate": self.name},
                 )
-            longest = max(abs(value) for point in self.divots.values() for value in point)
-            return PlateScale(x_ratio=1.0, y_ratio=1.0, sd_ratio=self.sd_mm / longest)
+            # Of their distances and not of their coordinates: the origin may be anywhere.
+            return PlateScale(x_ratio=1.0, y_ratio=1.0, sd_ratio=self.sd_mm / self.plate().max_distance_mm)
         if measured_mm is None:
             return None
         x, y = (value / self.rulers_mm for value in measured_mm)

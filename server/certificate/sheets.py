@@ -12,7 +12,7 @@ TEXT_MM, SMALL_MM = 3.6, 3.0
 FIGURES = {
     "point_rms_mm": ("Error of a single tip (RMS)", "mm"),
     "point_bias_mm": ("Bias: error of the mean tip of a divot (RMS)", "mm"),
-    "point_precision_mm": ("Precision: single tips about their mean (RMS)", "mm"),
+    "point_precision_mm": ("Precision: captures about the mean of their divot (RMS)", "mm"),
     "distance_rms_mm": ("Error of distances between divots (RMS)", "mm"),
     "repeatability_mm": ("Repeatability: same divot and posture again (RMS)", "mm"),
     "jitter_mm": ("Jitter of the tip at rest (RMS)", "mm"),

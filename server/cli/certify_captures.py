@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationError
 
+from server.certificate import calibration_sha256
 from server.certificate.plate_file import REMEDY as PLATE_REMEDY
 from server.certificate.plate_file import DivotName, PlateFile, plate_file_from
 from server.config import Section
@@ -61,7 +62,8 @@ def load_captures(path: Path, tool_file: ToolFile, tool: TrackedTool, *, unit: U
     """Read all captures of a file.
 
     Raises:
-        InvalidInput: CAPTURES_FILE_UNREADABLE, CAPTURES_FILE_INVALID, TOOL_SIDE_DIFFERS, or as `read_poses`.
+        InvalidInput: CAPTURES_FILE_UNREADABLE, CAPTURES_FILE_INVALID, TOOL_SIDE_DIFFERS,
+            POSES_OF_ANOTHER_CAMERA, or as `read_poses`.
         CalibrationError: as `capture_at_rest`.
     """
     values = yaml_in(path, what="captures file", code="CAPTURES_FILE_UNREADABLE", remedy=REMEDY)
@@ -98,6 +100,14 @@ def _capture(
             f"{tool_file.side_mm:g} mm",
             "Measure the printed black square, and track again if its side differs.",
             {"tracked_mm": [other], "side_mm": tool_file.side_mm},
+        )
+    # A certificate is of the camera file, so that its poses must be, too.
+    here = calibration_sha256(tool.camera)
+    if any(one.calibration_sha256 not in (None, here) for one in files.records):
+        raise InvalidInput(
+            "POSES_OF_ANOTHER_CAMERA",
+            f"poses in {folder / entry.poses} were tracked with another calibration than that of --camera",
+            "Give the camera file of 'coaxial track --camera', or track the captures again with this one.",
         )
     return capture_at_rest(
         files.poses,

@@ -8,7 +8,7 @@ import typer
 import yaml
 
 from server.camera_file import CameraFile, camera_file_text
-from server.certificate import PlateFile, text_of_plate_file
+from server.certificate import PlateFile, calibration_sha256, text_of_plate_file
 from server.cli.output import write_atomically
 from server.printing import grid_of_divots
 from server.printing.plate_sheet import RULER_MM
@@ -52,7 +52,7 @@ def write_rehearsal(folder: Path, faults: RehearsedFaults, *, seed: int) -> None
     entries = []
     for number, capture in enumerate(captures, start=1):
         poses = f"poses/{number:03d}.jsonl"
-        write_atomically(folder / poses, _lines(capture, system.side_mm).encode())
+        write_atomically(folder / poses, _lines(capture, system).encode())
         entries.append(
             {
                 "divot": capture.divot,
@@ -88,14 +88,15 @@ def _tool_file(system: RehearsedSystem) -> ToolFile:
     )
 
 
-def _lines(capture: RehearsedCapture, side_mm: float) -> str:
+def _lines(capture: RehearsedCapture, system: RehearsedSystem) -> str:
     """Return the poses as `coaxial track --json` writes them."""
     poses = capture.poses
     lines = []
     for number in range(len(poses)):
         line = {
             "name": MARKER,
-            "side_mm": side_mm,
+            "side_mm": system.side_mm,
+            "calibration_sha256": calibration_sha256(system.stated_camera),
             "seen": True,
             "camera_from_marker": {
                 "rotation": poses.rotations[number].tolist(),

@@ -4,7 +4,7 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
@@ -33,6 +33,8 @@ from tracker.errors import InvalidInput, NavigationError
 
 ALL_IDENTICAL, NOT_ALL = 0, 1
 MAX_LINE_LENGTH = 200
+# Each line of a table begins with the first field of `ReplayRow`.
+ROW_START = b'{"file":'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,15 +137,33 @@ def _appended(table: Path | None, *, keeps: bool) -> Iterator[IO[bytes] | None]:
     if table is None:
         yield None
         return
+    _reject_other_file(table)
     try:
         file = table.open("ab" if keeps else "wb")
     except OSError as error:
         raise _unusable(table, error) from error
-    with file:
+    try:
         if file.tell():
             # After a crash the last line may lack its end.
             file.write(b"\n")
         yield file
+    finally:
+        # Closing writes again what could not be written, which was raised then.
+        with suppress(OSError):
+            file.close()
+
+
+def _reject_other_file(table: Path) -> None:
+    """Reject a file that is not empty and no table, such as a recording, before it is overwritten."""
+    if not table.is_file():
+        return
+    try:
+        with table.open("rb") as file:
+            begin = file.read(len(ROW_START))
+    except OSError as error:
+        raise _unusable(table, error) from error
+    if not ROW_START.startswith(begin):
+        raise _unusable(table, ValueError("it is another file, and not a table of results"))
 
 
 def _append(file: IO[bytes], row: ReplayRow) -> None:
@@ -160,7 +180,7 @@ def _unusable(table: Path, error: Exception) -> InvalidInput:
     return InvalidInput(
         "TABLE_FILE_UNUSABLE",
         f"the table file {str(table)[:MAX_TEXT_LENGTH]} cannot be used: {reason}",
-        "Give a file that can be written, or none.",
+        "Give a new file, or a table of results that can be written.",
         {"table": str(table)[:MAX_TEXT_LENGTH], "reason": reason},
     )
 

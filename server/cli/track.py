@@ -26,6 +26,7 @@ from server.capture.address import SourceKind, source_from_text
 from server.capture.codecs import open_file
 from server.capture.shot import Shot, Source
 from server.capture.source_factory import source_from_config
+from server.certificate import calibration_sha256
 from server.cli.options import SettingOptions, config_from_options
 from server.cli.output import line_writer
 from server.cli.stop_signal import StopSignal
@@ -149,6 +150,7 @@ class _Summary:
         self._times: dict[str, list[float]] = defaultdict(list)
         self._setup: Setup | None = None
         self._tracker: Tracker | None = None
+        self._calibration_sha256: str | None = None
 
     def lines_of(self, shot: Shot, read_ms: float, preparation: Preparation) -> list[dict[str, Any]]:
         """Track one image; return one output line per marker."""
@@ -156,6 +158,8 @@ class _Summary:
         if self._tracker is None or self._setup is None or self._setup.camera.size_wh_px != (width, height):
             self._setup = preparation.setup_for((width, height), image=_named(shot))
             self._tracker = preparation.tracker_for(self._setup)
+            calibrated = self._setup.camera_calibrated
+            self._calibration_sha256 = calibration_sha256(self._setup.camera) if calibrated else None
         sightings = self._tracker.step(
             shot.image, captured_at_s=shot.source_time_s, full_search=True, is_predicted=shot.is_predicted
         )
@@ -176,6 +180,7 @@ class _Summary:
                 "time_s": round(shot.source_time_s, 6),
                 "name": name,
                 "side_mm": sides_mm[name],
+                "calibration_sha256": self._calibration_sha256,
                 **_sighting(sighting, calibrated=calibrated),
                 "stage_ms": {stage: round(took_ms, 3) for stage, took_ms in stage_ms.items()},
             }

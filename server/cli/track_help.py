@@ -14,6 +14,8 @@ by camera.rate_hz of the settings (default 30 Hz).
 
 camera_from_marker: rotation (3x3) and translation_mm, with --camera.
 
+calibration_sha256: of the camera model that the pose was computed with.
+
 pose_covariance: 6x6 in mm and rad, translation first, then rotation
 as a small left-multiplied rotation vector in the camera's frame.
 For a point at a lever L in mm, R being the rotation part, add

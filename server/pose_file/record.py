@@ -27,6 +27,7 @@ class PoseRecord:
         marker: name of the marker, if given.
         side_mm: side of the marker that it was tracked with, if given.
         time_s: time on the source's clock, if given.
+        calibration_sha256: of the camera model that it was tracked with, if given.
     """
 
     place: str
@@ -35,6 +36,7 @@ class PoseRecord:
     marker: str | None = None
     side_mm: float | None = None
     time_s: float | None = None
+    calibration_sha256: str | None = None
 
 
 def unreadable(place: str, what: str) -> InvalidInput:

@@ -1,7 +1,7 @@
 """Poses in JSON, JSON lines (also those of `coaxial track`) and NumPy arrays."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -112,36 +112,26 @@ def _from_value(place: str, value: Any, unit: Unit) -> PoseRecord:  # noqa: ANN4
     marker = value.get("name", value.get("marker"))
     covariance, side_mm = value.get("pose_covariance"), value.get("side_mm")
     time_s = next((value[key] for key in TIME_NAMES if isinstance(value.get(key), int | float)), None)
-    return _pose(
-        matrix,
-        place,
-        unit,
+    calibration = value.get("calibration_sha256")
+    found = _pose(matrix, place, unit)
+    return replace(
+        found,
         covariance=None if covariance is None else _numbers(covariance),
         marker=None if marker is None else str(marker),
         side_mm=float(side_mm) if isinstance(side_mm, int | float) else None,
         time_s=None if time_s is None else float(time_s),
+        calibration_sha256=None if calibration is None else str(calibration)[:64],
     )
 
 
-def _pose(
-    matrix: np.ndarray,
-    place: str,
-    unit: Unit,
-    *,
-    covariance: np.ndarray | None = None,
-    marker: str | None = None,
-    side_mm: float | None = None,
-    time_s: float | None = None,
-) -> PoseRecord:
+def _pose(matrix: np.ndarray, place: str, unit: Unit) -> PoseRecord:
     if matrix.dtype.kind not in "fiu" or matrix.shape not in {(4, 4), (3, 4)}:
         raise unreadable(place, "it contains no 4x4 matrix of numbers")
     try:
         pose = rigid_from_matrix(matrix, unit_mm=unit.in_mm)
     except InvalidInput as error:
         raise at_place(place, error) from None
-    return PoseRecord(
-        place=place, pose=pose, covariance=covariance, marker=marker, side_mm=side_mm, time_s=time_s
-    )
+    return PoseRecord(place=place, pose=pose)
 
 
 def _numbers(value: Any) -> np.ndarray:  # noqa: ANN401  JSON may be anything

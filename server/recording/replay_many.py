@@ -105,7 +105,7 @@ def replay_tasks(folder: Path, limits: AlarmLimits | None) -> list[ReplayTask]:
     """Return a task for each recording in a folder and its subfolders, sorted by path."""
     found = sorted(path for path in folder.rglob(f"*{SUFFIX}") if path.is_file())
     return [
-        ReplayTask(path=str(path.resolve()), name=path.relative_to(folder).as_posix(), limits=limits)
+        ReplayTask(path=str(path.resolve()), name=_utf8(path.relative_to(folder).as_posix()), limits=limits)
         for path in found
     ]
 
@@ -245,7 +245,7 @@ def _row(task: ReplayTask, report: ReplayReport, digest: str, duration_s: float)
         steps=report.steps,
         first=_difference(first),
         worst=_difference(worst),
-        problem=report.incomplete_reason[:MAX_TEXT_LENGTH],
+        problem=_utf8(report.incomplete_reason)[:MAX_TEXT_LENGTH],
         duration_s=round(duration_s, 3),
     )
 
@@ -277,8 +277,13 @@ def _failed(task: ReplayTask, problem: str, digest: str = "") -> ReplayRow:
         versions={},
         limits=limit_values(task.limits),
         outcome=Outcome.FAILED,
-        problem=problem[:MAX_TEXT_LENGTH],
+        problem=_utf8(problem)[:MAX_TEXT_LENGTH],
     )
+
+
+def _utf8(text: str) -> str:
+    """Return a text that can be written as UTF-8: names of files may be any bytes."""
+    return text.encode(errors="backslashreplace").decode()
 
 
 def _short(value: Any) -> JsonValue:  # noqa: ANN401

@@ -60,8 +60,8 @@ def assessed(system: RehearsedSystem) -> AccuracyAssessment:
 
 def claims(system: RehearsedSystem, found: AccuracyAssessment) -> Iterator[tuple[str, bool]]:
     """Yield each claim and whether it holds."""
-    errors = true_errors_mm(system, seed=1, rounds=TRUTH_ROUNDS)
-    lengths = np.linalg.norm(errors, axis=1)
+    of_image, errors = true_errors_mm(system, seed=1, rounds=TRUTH_ROUNDS).transpose(1, 0, 2)
+    lengths = np.linalg.norm(of_image, axis=1)
     # The captures of a round are those of the near placement, and then those of the far one.
     by_placement = lengths.reshape(TRUTH_ROUNDS, 2, -1)
     worst = max(float(np.quantile(by_placement[:, one], 0.95)) for one in (0, 1))

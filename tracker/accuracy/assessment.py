@@ -86,9 +86,10 @@ def assess_accuracy(
     reference that was not measured is none.
 
     Raises:
-        InvalidInput: ACCURACY_TOO_FEW_CAPTURES, or as `fit_plate`.
+        InvalidInput: ACCURACY_CAPTURE_REPEATED, ACCURACY_TOO_FEW_CAPTURES, or as `fit_plate`.
     """
     limits = limits or AccuracyLimits()
+    _reject_repeated(captures)
     _reject_too_few(captures, limits)
     scale = plate_scale or PlateScale(x_ratio=1.0, y_ratio=1.0, sd_ratio=0.0)
     true_plate = plate.scaled(scale.x_ratio, scale.y_ratio)
@@ -111,6 +112,21 @@ def assess_accuracy(
         divots=len({one.divot for one in captures}),
         captures=len(captures),
     )
+
+
+def _reject_repeated(captures: Sequence[DivotCapture]) -> None:
+    """Reject the same poses as two captures: they count as two samples, and have no scatter between them."""
+    earlier: dict[bytes, DivotCapture] = {}
+    for one in captures:
+        pose = one.camera_from_marker.rotation.tobytes() + one.camera_from_marker.translation_mm.tobytes()
+        other = earlier.setdefault(pose, one)
+        if other is not one:
+            raise InvalidInput(
+                "ACCURACY_CAPTURE_REPEATED",
+                f"the captures {other.title} and {one.title} have the same poses",
+                "Record poses of its own for each capture, and name them in the captures file.",
+                {"capture": other.title, "again": one.title},
+            )
 
 
 def _reject_too_few(captures: Sequence[DivotCapture], limits: AccuracyLimits) -> None:

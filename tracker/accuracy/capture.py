@@ -37,6 +37,7 @@ class DivotCapture:
         posture: how the tool was held, such as "upright", "tilted" or "turned".
         camera_from_marker: mean pose of the tool's marker.
         tip_in_camera_mm: (3,), mean position of the tip.
+        image_tip_in_camera_mm: (3,), position of the tip in the first image.
         covariance_mm2: (3, 3), stated by the tracker for this position, without the calibration of the tip;
             None if the poses have no covariance.
         jitter_covariance_mm2: (3, 3), scatter of the images about the mean.
@@ -49,6 +50,7 @@ class DivotCapture:
     posture: str
     camera_from_marker: Rigid[Camera, Marker]
     tip_in_camera_mm: Array
+    image_tip_in_camera_mm: Array
     covariance_mm2: Array | None
     jitter_covariance_mm2: Array
     jitter_deg: float
@@ -58,6 +60,11 @@ class DivotCapture:
     def group(self) -> tuple[str, str]:
         """Return placement and divot, in which a position is the same."""
         return self.placement, self.divot
+
+    @property
+    def averaged_covariance_mm2(self) -> Array:
+        """Return the covariance (3, 3) of the tip in a single image about the mean of the capture."""
+        return np.asarray(self.jitter_covariance_mm2 * (1.0 - 1.0 / self.images))
 
     @property
     def title(self) -> str:
@@ -125,6 +132,7 @@ def capture_at_rest(
         posture=posture,
         camera_from_marker=pose,
         tip_in_camera_mm=mean,
+        image_tip_in_camera_mm=tips[0],
         covariance_mm2=covariance,
         jitter_covariance_mm2=scatter,
         jitter_deg=float(np.degrees(np.sqrt((angles**2).sum() / (len(angles) - 1)))),

@@ -3,6 +3,9 @@
 The poses of the plate are nuisance parameters, so figures are of positions relative to each other in the
 working volume, as in navigation, where plan and tool are seen by the same camera. One capture is one sample.
 Captures of one divot share its error, and all figures account for that.
+
+A capture is the mean of images, but a single tip is that of one image, as it is displayed: its jitter, which
+the mean does not have, is added to the error of a single tip and to the certified error.
 """
 
 from collections import defaultdict
@@ -86,7 +89,7 @@ class Figures:
     Attributes:
         figures: those that the captures determine.
         error_95_mm: with a confidence of 95 %, at least 95 % of single tips are at most this far from the
-            truth, in each placement. Not less than the 95th percentile that was observed.
+            truth, in each placement. Not less than the 95th percentile of the captures.
         max_distance_error_mm: largest error of a distance between two divots of one placement, with sign.
         divots: errors by placement and divot.
     """
@@ -162,8 +165,9 @@ def variance_components_of(fit: PlateFit) -> VarianceComponents:
 def inside_stated(fit: PlateFit, plate: DivotPlate, tool: TrackedTool) -> npt.NDArray[np.bool_] | None:
     """Return which tips (n,) are inside their stated 95 % ellipsoid; None without stated covariances.
 
-    The covariance of a residual includes that of the fitted pose of the plate, which all captures share, and
-    that of the calibrated tip, which turns with the tool.
+    The first image of each capture is tested, because the stated covariance is that of one image. The
+    covariance of a residual includes that of the fitted pose of the plate, which all captures share, and that
+    of the calibrated tip, which turns with the tool.
     """
     stated = [one.covariance_mm2 for one in fit.captures if one.covariance_mm2 is not None]
     count = len(fit.captures)
@@ -177,9 +181,13 @@ def inside_stated(fit: PlateFit, plate: DivotPlate, tool: TrackedTool) -> npt.ND
     errors += turned @ tool.tip_covariance_mm2 @ turned.T
     maker = fit.residual_maker
     of_residuals = maker @ errors @ maker.T
+    residuals = [
+        residual + one.image_tip_in_camera_mm - one.tip_in_camera_mm
+        for one, residual in zip(fit.captures, fit.residuals_mm, strict=True)
+    ]
     squares = [
         float(residual @ np.linalg.pinv(of_residuals[3 * n : 3 * n + 3, 3 * n : 3 * n + 3]) @ residual)
-        for n, residual in enumerate(fit.residuals_mm)
+        for n, residual in enumerate(residuals)
     ]
     return np.asarray(np.array(squares) <= float(scipy.stats.chi2.ppf(0.95, 3)))
 
@@ -190,12 +198,17 @@ def _point(fit: PlateFit, found: VarianceComponents) -> JackknifeRms:
     The sum of the variance components is too small where all divots have the same postures, and the corrected
     mean of the squared residuals where errors of divots are large: the larger of both is returned.
     """
-    squares = (fit.residuals_mm**2).sum(axis=1)
+    jitter = np.array([np.trace(one.averaged_covariance_mm2) for one in fit.captures])
+    of_captures = (fit.residuals_mm**2).sum(axis=1)
+    squares = of_captures + jitter
     between, within = float(np.trace(found.between_mm2)), float(np.trace(found.within_mm2))
+    of_capture = max(
+        within + (between - within) / found.size, float(of_captures.mean()) * _fit_correction(fit)
+    )
     return jackknife_rms(
         lambda kept: float(squares[kept].mean()),
         fit.group_index,
-        value=max(within + (between - within) / found.size, float(squares.mean()) * _fit_correction(fit)),
+        value=of_capture + float(jitter.mean()),
         freedom=len(squares) / _fit_correction(fit) * effective_dimension(found.total_mm2),
     )
 
@@ -222,19 +235,22 @@ def _error_95_mm(fit: PlateFit) -> float:
 
 
 def _error_95_at_mm(fit: PlateFit, placement: int) -> float:
-    residuals = fit.residuals_mm[fit.placement_index == placement]
-    _, groups = np.unique(fit.group_index[fit.placement_index == placement], return_inverse=True)
+    here = fit.placement_index == placement
+    residuals = fit.residuals_mm[here]
+    _, groups = np.unique(fit.group_index[here], return_inverse=True)
     found = variance_components(residuals, groups, fitted_parameters=POSE_PARAMETERS)
+    averaged_mm2 = np.array([fit.captures[n].averaged_covariance_mm2 for n in np.flatnonzero(here)])
+    total_mm2 = found.total_mm2 + averaged_mm2.mean(axis=0)
     correction = 3 * len(residuals) / (3 * len(residuals) - POSE_PARAMETERS)
-    squares = (residuals**2).sum(axis=1) * correction
+    squares = (residuals**2).sum(axis=1) * correction + np.trace(averaged_mm2, axis1=1, axis2=2)
     rms = jackknife_rms(
         lambda kept: float(squares[kept].mean()),
         groups,
-        freedom=len(squares) / correction * effective_dimension(found.total_mm2),
+        freedom=len(squares) / correction * effective_dimension(total_mm2),
     )
     if rms.mean_square == 0.0:
         return 0.0
-    bound = quantile_95_mm(found.total_mm2) * rms.upper_95 / rms.estimate.value
+    bound = quantile_95_mm(total_mm2) * rms.upper_95 / rms.estimate.value
     return max(bound, float(np.sqrt(np.quantile(squares, 0.95))))
 
 

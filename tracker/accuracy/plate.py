@@ -63,9 +63,18 @@ class DivotPlate:
     @property
     def min_distance_mm(self) -> float:
         """Return the distance of the two nearest divots; infinity for fewer than two."""
+        return float(self._distances_mm.min(initial=np.inf))
+
+    @property
+    def max_distance_mm(self) -> float:
+        """Return the distance of the two farthest divots."""
+        return float(self._distances_mm.max(initial=0.0))
+
+    @property
+    def _distances_mm(self) -> Array:
         points = np.array(list(self.points_mm.values()), dtype=np.float64).reshape(-1, 3)
         between = np.linalg.norm(points[:, None] - points[None], axis=2)
-        return float(between[np.triu_indices(len(points), 1)].min(initial=np.inf))
+        return np.asarray(between[np.triu_indices(len(points), 1)])
 
     def spread(self, count: int) -> tuple[str, ...]:
         """Return up to `count` divots far from each other (farthest point sampling), in the plate's order."""

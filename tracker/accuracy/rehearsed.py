@@ -168,11 +168,16 @@ def rehearse(system: RehearsedSystem, *, seed: int, repetitions: int = 1) -> lis
 
 
 def true_errors_mm(system: RehearsedSystem, *, seed: int, rounds: int) -> Array:
-    """Return the errors (n, 3) of captures in many rounds of the same test, relative to the true plate."""
+    """Return the errors (n, 2, 3) of captures in many rounds of the same test, relative to the true plate.
+
+    The first is that of the first image, the second that of the mean of all images.
+    """
     tool = system.tool
     captures = [one.at_rest(tool) for number in range(rounds) for one in rehearse(system, seed=seed + number)]
     scale = 1.0 + system.faults.print_scale_ratio
-    return fit_plate(system.plate.scaled(scale, scale), captures).residuals_mm
+    of_mean = fit_plate(system.plate.scaled(scale, scale), captures).residuals_mm
+    of_image = np.array([one.image_tip_in_camera_mm - one.tip_in_camera_mm for one in captures])
+    return np.stack([of_mean + of_image, of_mean], axis=1)
 
 
 def _capture(

@@ -19,6 +19,12 @@ CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
             "erlaubt {allowed_mm:g} mm; höchstens {off_mm:.2f} mm vom Mittel, erlaubt {allowed_off_mm:g} mm",
         },
     ),
+    "ACCURACY_CAPTURE_REPEATED": (
+        {
+            "en": "the captures {capture} and {again} have the same poses",
+            "de": "die Aufnahmen {capture} und {again} haben dieselben Lagen",
+        },
+    ),
     "ACCURACY_CAPTURE_SHORT": (
         {
             "en": "the capture {capture} has {images} different images, needed {needed}",

@@ -12,6 +12,7 @@ import yaml
 from typer.testing import CliRunner
 
 from server.capture.address import source_from_text
+from server.certificate import PlateFile
 from server.cli import app
 from server.latency import LatencyReport, LatencyResult, Screen
 from server.store.latency_file import LatencyFile
@@ -83,6 +84,23 @@ def test_a_plate_that_nobody_measured_is_not_certified(tmp_path: Path) -> None:
     assert "the rulers of the printed plate were not measured" in typed(
         *words[:at], *words[at + 2 :], status=1
     )
+
+
+def test_the_scale_of_a_machined_plate_is_as_uncertain_wherever_its_origin_is() -> None:
+    """Positions 500 mm from the origin made the scale ten times as certain."""
+    corners = {"1": (0.0, 0.0), "2": (60.0, 0.0), "3": (0.0, 80.0), "4": (60.0, 80.0)}
+    for origin_mm in (0.0, 500.0):
+        divots = {name: [x + origin_mm, y + origin_mm, 0.0] for name, (x, y) in corners.items()}
+        scale = PlateFile(name="lab", sd_mm=0.05, divots=divots).scale(None, sd_mm=0.2)
+        assert scale is not None
+        assert scale.sd_ratio == pytest.approx(0.05 / 100.0)
+
+
+@pytest.mark.parametrize("divots", [{}, {name: [0.0, 0.0, 0.0] for name in "1234"}])
+def test_a_machined_plate_without_distances_is_rejected(divots: dict[str, list[float]]) -> None:
+    with pytest.raises(NavigationError) as raised:
+        PlateFile(name="lab", sd_mm=0.05, divots=divots).scale(None, sd_mm=0.2)
+    assert raised.value.code == "PLATE_INVALID"
 
 
 def test_a_certificate_is_checked_as_json_and_as_pdf(certificate: Path) -> None:
@@ -185,6 +203,17 @@ def test_an_altered_certificate_is_an_error(certificate: Path) -> None:
     with pytest.raises(NavigationError) as raised:
         typed("check", certificate)
     assert raised.value.code == "CERTIFICATE_ALTERED"
+
+
+def test_poses_that_were_tracked_with_another_calibration_are_rejected(tmp_path: Path) -> None:
+    """Otherwise a certificate would be of a camera file that nobody tested."""
+    words = rehearsed(tmp_path / "test")
+    camera = tmp_path / "test" / "camera.yaml"
+    values = yaml.safe_load(camera.read_text())
+    camera.write_text(yaml.safe_dump({**values, "distortion": [0.001, 0.0, 0.0, 0.0, 0.0]}))
+    with pytest.raises(NavigationError) as raised:
+        typed(*words)
+    assert raised.value.code == "POSES_OF_ANOTHER_CAMERA"
 
 
 def test_a_plate_is_printed_with_its_definition(tmp_path: Path) -> None:

@@ -149,7 +149,7 @@ def test_track_writes_a_line_for_every_image(film: Path, marker: Path, tmp_path:
     keys = {
         *("image_number", "time_s", "name", "seen", "reason", "camera_from_marker", "pose_covariance"),
         *("corners_px", "score_ratio", "target_score_ratio", "model_coverage_ratio", "target_coverage_ratio"),
-        *("fit_error_px2", "found_by", "best_score_ratio", "stage_ms", "side_mm"),
+        *("fit_error_px2", "found_by", "best_score_ratio", "stage_ms", "side_mm", "calibration_sha256"),
     }
     for line in lines:
         assert set(line) == keys

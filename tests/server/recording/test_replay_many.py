@@ -15,6 +15,7 @@ from server.errors import RecordingError
 from server.recording.replay import Difference, ReplayReport
 from server.recording.replay_many import Outcome, ReplayRow, ReplayTask, checked_row, cluster_rows, local_rows
 from tests.server.recording_file.written import write_recording
+from tracker.errors import InvalidInput
 
 ROWS = {"L4/c.mcap": Outcome.FAILED, "a.mcap": Outcome.IDENTICAL, "b.mcap": Outcome.NOT_COMPARED}
 
@@ -126,6 +127,37 @@ def test_a_resumed_check_skips_what_is_finished_and_unchanged(
     run(str(folder), "--table", str(table))
     assert runs.names == list(ROWS)
     assert len(table.read_text().splitlines()) == 3
+
+
+def test_a_name_that_is_not_utf_8_is_a_row(folder: Path, tmp_path: Path, runs: Runs) -> None:
+    name = os.fsdecode(b"z\xff.mcap")
+    (folder / name).write_bytes(b"not a recording")
+    table = tmp_path / "table.jsonl"
+    for _ in "table", "resumed":
+        _, text = run(str(folder), "--table", str(table), "--resume", "--json")
+        assert [row["file"] for row in json.loads(text)] == [*ROWS, "z\\udcff.mcap"]
+    assert runs.names == ["L4/c.mcap", "z\\udcff.mcap"]
+
+
+def test_a_table_file_that_is_another_file_is_not_overwritten(folder: Path, runs: Runs) -> None:
+    recording = folder / "a.mcap"
+    before = recording.read_bytes()
+    assert "it is another file" in unusable_table(folder, recording)
+    assert recording.read_bytes() == before
+    assert not runs.names
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+def test_a_full_disk_is_named_once(folder: Path, runs: Runs) -> None:
+    assert "no space left" in unusable_table(folder, Path("/dev/full"))
+    assert runs.names == list(ROWS)
+
+
+def unusable_table(folder: Path, table: Path) -> str:
+    found = CliRunner().invoke(app, ["replay", str(folder), "--check", "--table", str(table)]).exception
+    assert isinstance(found, InvalidInput), found
+    assert found.code == "TABLE_FILE_UNUSABLE"
+    return found.message
 
 
 def test_other_alarm_limits_are_another_result(folder: Path, tmp_path: Path, runs: Runs) -> None:

@@ -37,6 +37,10 @@ CERTIFICATE: tuple[Text, ...] = (
         "de": "Die Hand auflegen, die Spitze in der Mulde stillhalten und diese Aufnahme wiederholen.",
     },
     {
+        "en": "Record poses of its own for each capture, and name them in the captures file.",
+        "de": "Für jede Aufnahme eigene Lagen aufzeichnen und sie in der Datei der Aufnahmen nennen.",
+    },
+    {
         "en": "Record the captures with 'coaxial track --json'.",
         "de": "Die Aufnahmen mit 'coaxial track --json' aufzeichnen.",
     },

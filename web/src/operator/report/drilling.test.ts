@@ -19,8 +19,8 @@ const graded = (
 ): string => gradeText({ grade, worst_grade: worst, against } as DrillingMessage, texts);
 
 test("a grade is stated with the worst one of its interval", () => {
-  expect(graded("A", "A")).toBe("A, also at the limit of the 95 % interval");
-  expect(graded("A", "B")).toBe("A, up to B within the 95 % interval");
+  expect(graded("A", "A")).toBe("A, also at the limit of the 95 % interval of the least clearance");
+  expect(graded("A", "B")).toBe("A, up to B within the 95 % interval of the least clearance");
   expect(graded("B", null)).toBe("B (error unknown)");
   expect(graded(null, null, "channel")).toBe("none: the planned channel is not bone");
   expect(graded(null, null, null)).toBe("unknown");

@@ -34,6 +34,23 @@ describe("two instants", () => {
     expect(figures.entry.difference?.error95).toBeCloseTo(0.5);
   });
 
+  test("of clearances to different walls have none, but the other figures do", () => {
+    const other = instant(8, 0.9);
+    const [tool] = other.snapshot.tools;
+    if (tool?.assessment.kind !== "assessment") throw new Error("the instant has figures");
+    const against = tool.assessment.against === "channel" ? "bone" : "channel";
+    const tools = [{ ...tool, assessment: { ...tool.assessment, against } as const }];
+    const { reason, figures } = comparisonOf(
+      instant(3, 1.2),
+      { ...other, snapshot: { ...other.snapshot, tools } },
+      5,
+    );
+    expect(reason).toBe("other-wall");
+    expect(figures.wall.first).not.toBeNull();
+    expect(figures.wall.difference).toBeNull();
+    expect(figures.entry.difference?.value).toBeCloseTo(-0.3);
+  });
+
   test.each([
     ["first-absent", instant(3, null), instant(8, 0.9)],
     ["second-absent", instant(3, 1.2), instant(8, null)],

@@ -18,13 +18,16 @@ export interface ComparedValue {
 export interface ComparedFigure {
   first: ComparedValue | null;
   second: ComparedValue | null;
-  /** Second minus first, of the displayed digits; null unless both have a value at this instant. */
+  /** Second minus first, of the displayed digits; null unless both have a value of the same thing at this instant. */
   difference: ComparedValue | null;
 }
 
 export interface Comparison {
-  /** Why there are no differences: the instants are too far apart, or a recording has no figures here. */
-  reason: "apart" | "first-absent" | "second-absent" | null;
+  /**
+   * Why there are no differences: the instants are too far apart, or a recording has no figures here. With `other-wall`
+   * the clearances alone have none: they are to different walls, such as bone and the planned channel.
+   */
+  reason: "apart" | "first-absent" | "second-absent" | "other-wall" | null;
   /** Time of the second instant minus that of the first, after the offset. */
   apartS: number;
   figures: Record<FigureName, ComparedFigure>;
@@ -36,6 +39,7 @@ export function comparisonOf(first: RecordedInstant, second: RecordedInstant, of
   const [firstAssessment, secondAssessment] = [displayedTool(first), displayedTool(second)].map((tool) =>
     tool?.assessment.kind === "assessment" ? tool.assessment : null,
   );
+  const isOtherWall = firstAssessment?.against !== secondAssessment?.against;
   const isApart = Math.abs(apartS) > MAX_APART_S + ROUNDING_S;
   const figures = Object.fromEntries(
     FIGURES.map((name) => {
@@ -45,7 +49,14 @@ export function comparisonOf(first: RecordedInstant, second: RecordedInstant, of
           ? null
           : { value: figure.value, error95: figure.error_95 };
       }) as [ComparedValue | null, ComparedValue | null];
-      return [name, { first: one, second: other, difference: isApart ? null : difference(one, other) }];
+      return [
+        name,
+        {
+          first: one,
+          second: other,
+          difference: isApart || (name === "wall" && isOtherWall) ? null : difference(one, other),
+        },
+      ];
     }),
   ) as Record<FigureName, ComparedFigure>;
   const reason = isApart
@@ -54,7 +65,9 @@ export function comparisonOf(first: RecordedInstant, second: RecordedInstant, of
       ? "first-absent"
       : secondAssessment == null
         ? "second-absent"
-        : null;
+        : isOtherWall
+          ? "other-wall"
+          : null;
   return { reason, apartS, figures };
 }
 

@@ -76,6 +76,8 @@ export const recordingDe: RecordingTexts = {
         apart: "Kein Unterschied: Die andere Aufnahme hat kein Bild innerhalb von 0,1 s.",
         "first-absent": "Kein Unterschied: Die erste Aufnahme hat zu diesem Zeitpunkt keine Werte.",
         "second-absent": "Kein Unterschied: Die zweite Aufnahme hat zu diesem Zeitpunkt keine Werte.",
+        "other-wall":
+          "Kein Unterschied des Wandabstands: Beide sind zu verschiedenen Wänden, etwa Knochen und geplanter Kanal.",
       },
     },
     exports: {

@@ -74,6 +74,8 @@ export const recordingEn = {
         apart: "No difference: the other recording has no image within 0.1 s of this instant.",
         "first-absent": "No difference: the first recording has no numbers at this instant.",
         "second-absent": "No difference: the second recording has no numbers at this instant.",
+        "other-wall":
+          "No difference of the clearance: the two are to different walls, such as bone and planned channel.",
       },
     },
     exports: {
