@@ -23,6 +23,7 @@ from server.installation import product_version
 from tests.procedure.conftest import Server, serving
 from tests.tracker.accuracy.test_accuracy_assessment import MEASURED, PLATE, POINTS, SOUND, captures_of
 from tracker.accuracy import assess_accuracy
+from tracker.camera import CameraControl, ControlChange
 
 NOW = datetime.now(UTC)
 
@@ -120,6 +121,20 @@ def test_a_certificate_of_another_system_certifies_nothing(
     other = certificate.model_copy(update=updates)
     (drill,) = install(rehearsing, key_of(rehearsing).signed_json(other.json_values()))["tools"]
     assert (drill["certified"], drill["problem"]["code"]) == (False, code)
+
+
+def test_a_tool_is_not_certified_while_the_focus_is_not_that_of_the_calibration(rehearsing: Server) -> None:
+    rehearsing.show(at_s=0.0)
+    install(rehearsing, key_of(rehearsing).signed_json(certificate_for(rehearsing).json_values()))
+    newest = rehearsing.hub.newest
+    assert newest is not None
+    assert newest.snapshot is not None
+    change = ControlChange(control=CameraControl.FOCUS, calibrated=30, now=60)
+    motion = replace(newest.snapshot.motion, camera_changes=(change,))
+    snapshot = replace(newest.snapshot, motion=motion)
+    rehearsing.hub.publish(replace(newest, sequence=newest.sequence + 1, snapshot=snapshot))
+    (drill,) = tools(rehearsing)
+    assert (drill["certified"], drill["problem"]["code"]) == (False, "CERTIFICATE_NOT_APPLICABLE")
 
 
 def test_only_certificates_of_this_installation_are_installed(rehearsing: Server, tmp_path: Path) -> None:
