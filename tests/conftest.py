@@ -1,5 +1,6 @@
-"""Shared fixtures: one real headless browser, and the order of the tests."""
+"""Shared fixtures: one real headless browser, the root logger, and the order of the tests."""
 
+import logging
 import os
 import shutil
 from collections.abc import Iterator
@@ -53,6 +54,16 @@ def browser() -> Iterator[Browser]:
 def pytest_configure() -> None:
     """Cases of tests are never stored among a user's: each server start names its own folder."""
     os.environ["COAXIAL_HOME"] = os.devnull
+
+
+@pytest.fixture(autouse=True)
+def unchanged_root_logger() -> Iterator[None]:
+    """Undo what a command configured in this process: its handler writes to a stream that is then closed."""
+    root = logging.getLogger()
+    handlers, level = root.handlers[:], root.level
+    yield
+    root.handlers[:] = handlers
+    root.setLevel(level)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -201,7 +201,7 @@ def cluster_rows(
             'Install it into the environment of Coaxial: pip install "coaxial[cluster]".',
         ) from None
     try:
-        client: Any = Client(scheduler, timeout=timeout_s, set_as_default=False)  # type: ignore[no-untyped-call]
+        client: Any = Client(scheduler, timeout=timeout_s, set_as_default=False)
     except (OSError, ValueError) as error:
         reason = str(error)[:MAX_TEXT_LENGTH]
         raise RecordingError(
@@ -213,7 +213,7 @@ def cluster_rows(
     with client:
         # Not pure: the file may have changed since an earlier run with the same arguments.
         futures = {client.submit(checked_row, task, pure=False): task for task in tasks}
-        for future in as_completed(futures, loop=client.loop):  # type: ignore[no-untyped-call]
+        for future in as_completed(futures, loop=client.loop):
             crash = future.exception()
             yield future.result() if crash is None else _failed(futures[future], f"its worker: {crash}")
 

@@ -10,6 +10,7 @@ from server.certificate import PlateFile, text_of_plate_file, verified
 from server.procedure.divot_capture import MAX_CAPTURE_S
 from server.store import DocumentKind
 from tests.procedure.conftest import Server
+from tests.procedure.patient import marker_seen
 from tests.procedure.test_camera_step import open_a_case
 from tests.tracker.accuracy.test_accuracy_assessment import POINTS, SOUND
 from tracker.accuracy import DivotPlate
@@ -131,20 +132,11 @@ class Bench:
 def seen_in(one: RehearsedCapture, number: int, off_mm: float) -> Seen:
     poses = one.poses
     assert poses.covariances is not None
-    return Seen(
-        camera_from_marker=Rigid(
-            rotation=poses.rotations[number],
-            translation_mm=poses.translations_mm[number] + np.array([off_mm, 0.0, 0.0]),
-        ),
-        pose_covariance=poses.covariances[number],
-        corners_px=np.zeros((4, 2)),
-        score_ratio=0.95,
-        target_score_ratio=0.9,
-        model_coverage_ratio=0.95,
-        target_coverage_ratio=0.9,
-        fit_error_px2=0.1,
-        found_by="track",
+    pose = Rigid(
+        rotation=poses.rotations[number],
+        translation_mm=poses.translations_mm[number] + np.array([off_mm, 0.0, 0.0]),
     )
+    return replace(marker_seen(pose), pose_covariance=poses.covariances[number])
 
 
 def test_a_sound_tool_is_certified_from_the_first_divot_to_the_installed_certificate(server: Server) -> None:
