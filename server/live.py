@@ -136,6 +136,11 @@ class SourceStatus:
     rate_hz: float = 0.0
     camera: CameraStatus | None = None
 
+    @property
+    def device(self) -> str:
+        """Device of the camera; empty if unknown."""
+        return "" if self.camera is None else self.camera.device
+
 
 class ProcessState(StrEnum):
     """State of the tracking process."""

@@ -29,7 +29,7 @@ from server.certificate import (
 )
 from server.cli.board_options import size_of
 from server.cli.certify_captures import load_captures, load_plate_file
-from server.cli.output import write_atomically
+from server.cli.output import problem_values, write_atomically
 from server.clock import utc_now
 from server.home_folder import home_folder
 from server.latency import LatencyResult
@@ -150,14 +150,11 @@ def _print(
     found: AccuracyAssessment, certificate: Certificate | None, written: Sequence[Path], *, as_json: bool
 ) -> None:
     if as_json:
-        problems = [
-            {"code": one.code, "message": one.message, "remedy": one.remedy} for one in found.problems
-        ]
         typer.echo(
             json.dumps(
                 {
                     "certified": certificate is not None,
-                    "problems": problems,
+                    "problems": [problem_values(one) for one in found.problems],
                     **_values(found),
                     "certificate": None if certificate is None else certificate.json_values(),
                     "written": [str(path) for path in written],

@@ -17,6 +17,7 @@ from server.certificate import (
     verified,
 )
 from server.certificate.signature import MAX_BYTES, REMEDY
+from server.cli.output import problem_values
 from server.clock import utc_now
 from server.home_folder import home_folder
 from server.tool_file import load_tool_file
@@ -54,12 +55,11 @@ def check_certificate(options: CheckOptions, *, as_json: bool) -> int:
         *invalidities(certificate, system, now=utc_now()),
     ]
     if as_json:
-        listed = [{"code": one.code, "message": one.message, "remedy": one.remedy} for one in problems]
         typer.echo(
             json.dumps(
                 {
                     "valid": not problems,
-                    "problems": listed,
+                    "problems": [problem_values(one) for one in problems],
                     "signer": found.signer,
                     "certificate": certificate.json_values(),
                 }

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO
 
-from tracker.errors import InvalidInput
+from tracker.errors import InvalidInput, NavigationError
+from tracker.plan.remark import Remark
 
 PART = ".part"
 
@@ -162,3 +163,8 @@ def _reject_input(json_file: str, outputs: Iterable[Path], inputs: Iterable[Path
                         "Give another output file with --json.",
                         {"file": json_file, "input": str(source)},
                     )
+
+
+def problem_values(one: NavigationError | Remark) -> dict[str, str]:
+    """Return the JSON fields of a problem or remark."""
+    return {"code": one.code, "message": one.message, "remedy": one.remedy}

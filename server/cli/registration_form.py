@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from server.cli.output import problem_values
 from server.number_format import finite
 from tracker.errors import RegistrationError
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
@@ -50,11 +51,7 @@ def registration_form(
         "floors": dict(floors),
         "covariance": covariance.tolist(),
         "covariance_of": COVARIANCE_OF,
-        "warnings": [_text(remark) for remark in remarks],
+        "warnings": [problem_values(remark) for remark in remarks],
         "limits": {name: finite(limit) for name, limit in limits.items()},
-        "gate": {"passed": not failures, "failures": [_text(failure) for failure in failures]},
+        "gate": {"passed": not failures, "failures": [problem_values(failure) for failure in failures]},
     }
-
-
-def _text(one: Remark | RegistrationError) -> dict[str, str]:
-    return {"code": one.code, "message": one.message, "remedy": one.remedy}

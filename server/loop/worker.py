@@ -281,7 +281,7 @@ def work(
                 shot,
                 skipped_images=report.source.skipped_images,
                 controls=None if camera is None else camera.controls,
-                device="" if camera is None else camera.device,
+                device=report.source.device,
                 clock=clock,
             )
             problem = tracking.problem

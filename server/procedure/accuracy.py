@@ -16,7 +16,7 @@ from server.certificate import (
 from server.clock import Clock, utc_now
 from server.errors import CaptureError, SetupOrderError
 from server.installation import product_version
-from server.live import LiveHub
+from server.live import LiveHub, SourceStatus
 from server.procedure.accuracy_collection import AccuracyCollection
 from server.procedure.camera import MAIN_CAMERA, camera_from_document
 from server.procedure.collecting_step import CollectingStep
@@ -26,6 +26,7 @@ from server.store import CaseStore, DocumentKind
 from server.store.latency_file import LatencyFile
 from tracker.accuracy import TrackedTool, plate_problems
 from tracker.camera import CameraModel
+from tracker.navigation import NavigationSnapshot
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -123,18 +124,10 @@ class AccuracyStep(CollectingStep[AccuracyCollection]):
         problems = plate_problems(scale)
         if problems:
             raise problems[0]
-        newest = self._hub.newest
-        if newest is None or newest.snapshot is None:
-            raise CaptureError(
-                "NO_PICTURE",
-                "there is no image for the measurement",
-                "Wait until the video runs, and try again.",
-            )
-        used = tool_in_use(newest, tool)
-        camera = newest.snapshot.setup.camera
-        device = "" if newest.source.camera is None else newest.source.camera.device
+        snapshot, source = self._newest_image()
+        used, camera = tool_in_use(snapshot, tool), snapshot.setup.camera
         system = ExaminedSystem(
-            camera=self._cameras.find(camera, device=device),
+            camera=self._cameras.find(camera, device=source.device),
             marker=used.marker,
             tool=TrackedTool(
                 camera=camera,
@@ -168,9 +161,7 @@ class AccuracyStep(CollectingStep[AccuracyCollection]):
                 "Take the captures that are missing.",
                 {"captures": len(status.captures), "planned": len(status.planned)},
             )
-        newest = self._hub.newest
-        if newest is not None:
-            collection.tool_of(newest)
+        collection.tool_of(*self._newest_image())
         issue = Issue(
             at=self._clock(),
             valid_days=valid_days,
@@ -185,3 +176,13 @@ class AccuracyStep(CollectingStep[AccuracyCollection]):
         self._installed.install(self._installed.key.signed_json(found.certificate.json_values()))
         self.end()
         return found.certificate
+
+    def _newest_image(self) -> tuple[NavigationSnapshot, SourceStatus]:
+        newest = self._hub.newest
+        if newest is None or newest.snapshot is None:
+            raise CaptureError(
+                "NO_PICTURE",
+                "there is no image for the measurement",
+                "Wait until the video runs, and try again.",
+            )
+        return newest.snapshot, newest.source

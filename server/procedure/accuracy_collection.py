@@ -14,7 +14,7 @@ from server.certificate import (
     certified_tool,
 )
 from server.errors import SetupOrderError
-from server.live import Instant, LiveHub
+from server.live import LiveHub, SourceStatus
 from server.procedure.divot_capture import (
     DivotCaptureState,
     DivotCaptureStatus,
@@ -25,6 +25,7 @@ from server.procedure.divot_capture import (
 from tracker.accuracy import AccuracyAssessment, DivotCapture, DivotPlate, reject_wrong_divot
 from tracker.errors import CalibrationError, InvalidInput, NavigationError
 from tracker.geometry.rotations import vector_from_rotation
+from tracker.navigation import NavigationSnapshot
 from tracker.pose import ToolModel
 
 POSTURES = ("upright", "tilted", "turned")
@@ -175,18 +176,15 @@ class AccuracyCollection:
             if self._capture is not None:
                 self._capture.stop()
 
-    def tool_of(self, instant: Instant) -> ToolModel:
+    def tool_of(self, snapshot: NavigationSnapshot, source: SourceStatus) -> ToolModel:
         """Return the tool in an image of the examined system.
 
         Raises:
             CalibrationError: ACCURACY_SYSTEM_CHANGED.
-            CaptureError, InvalidInput: as `tool_in_use`.
+            InvalidInput: as `tool_in_use`.
         """
-        tool = tool_in_use(instant, self.tool)
-        snapshot, system, status = instant.snapshot, self.system, instant.source.camera
-        if snapshot is None:
-            raise RuntimeError("a tool in use without an image")
-        camera = CameraInUse(model=snapshot.setup.camera, device=(status.device if status else "") or None)
+        tool, system = tool_in_use(snapshot, self.tool), self.system
+        camera = CameraInUse(model=snapshot.setup.camera, device=source.device or None)
         here = ToolInUse(
             marker=tool.marker,
             # A side that changes puts the calibration of the tool out of date, so that it is not in use.

@@ -174,7 +174,7 @@ class BoardCollection:
 
     def _record_controls(self, source: SourceStatus) -> None:
         """Reject views after a change of the camera or its controls: the intrinsics may have changed."""
-        device = "" if source.camera is None else source.camera.device
+        device = source.device
         if device and self._device and device != self._device:
             raise CalibrationError(
                 "CAMERA_DIFFERS",

@@ -1,6 +1,7 @@
 """Whether the accuracy of the tools in use is certified, by the certificates of this installation."""
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 from server.certificate import (
     CameraInUse,
@@ -19,6 +20,8 @@ from server.store import NotFound
 from tracker.errors import InvalidInput
 from tracker.navigation import NavigationSnapshot
 from tracker.pose import ToolModel
+
+Missing = TypeVar("Missing", NotFound, InvalidInput)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,8 +76,7 @@ class CertificateStep:
         newest = self._hub.newest
         if newest is None or newest.snapshot is None:
             return ()
-        snapshot, camera = newest.snapshot, newest.source.camera
-        device = "" if camera is None else camera.device
+        snapshot, device = newest.snapshot, newest.source.device
         certificates = {one.certificate.tool.marker: one.certificate for one in self._installed.all()}
         sides_mm = {known.model.name: known.model.side_mm for known in self._markers.known()}
         found = []
@@ -111,12 +113,7 @@ class CertificateStep:
     def _certificate(self, marker: str) -> Certificate:
         found = self._installed.of(marker)
         if found is None:
-            raise NotFound(
-                "CERTIFICATE_MISSING",
-                f"no accuracy certificate is installed for the marker '{marker[:40]}'",
-                "Do the accuracy test, and install its certificate.",
-                {"marker": marker[:40]},
-            )
+            raise _missing(NotFound, marker)
         return found.certificate
 
     def _problem(
@@ -129,12 +126,7 @@ class CertificateStep:
         device: str,
     ) -> InvalidInput | None:
         if certificate is None:
-            return InvalidInput(
-                "CERTIFICATE_MISSING",
-                f"no accuracy certificate is installed for the marker '{tool.marker[:40]}'",
-                "Do the accuracy test, and install its certificate.",
-                {"marker": tool.marker[:40]},
-            )
+            return _missing(InvalidInput, tool.marker)
         try:
             reject_uncalibrated(snapshot)
         except InvalidInput as error:
@@ -150,3 +142,12 @@ class CertificateStep:
             software_version=self._software_version,
         )
         return next(iter(invalidities(certificate, system, now=self._clock())), None)
+
+
+def _missing(kind: type[Missing], marker: str) -> Missing:
+    return kind(
+        "CERTIFICATE_MISSING",
+        f"no accuracy certificate is installed for the marker '{marker[:40]}'",
+        "Do the accuracy test, and install its certificate.",
+        {"marker": marker[:40]},
+    )

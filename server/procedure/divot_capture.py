@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from server.errors import CaptureError
-from server.live import Instant, LiveHub, Problem
+from server.live import Instant, LiveHub, Problem, SourceStatus
 from server.procedure.live_listener import LiveListener
 from tracker.accuracy import DivotCapture, RestLimits, capture_at_rest
 from tracker.errors import CalibrationError, InvalidInput
@@ -69,7 +69,7 @@ class LiveDivotCapture:
     Args:
         hub: the live images.
         planned: what is captured.
-        tool_of: returns the examined tool in an image; raises an error if the system has changed.
+        tool_of: returns the examined tool of an image; raises an error if the system has changed.
         validate: called with the capture; raises an error to reject it.
     """
 
@@ -78,7 +78,7 @@ class LiveDivotCapture:
         hub: LiveHub,
         planned: PlannedCapture,
         *,
-        tool_of: Callable[[Instant], ToolModel],
+        tool_of: Callable[[NavigationSnapshot, SourceStatus], ToolModel],
         validate: Callable[[DivotCapture], None],
     ) -> None:
         self.planned = planned
@@ -122,7 +122,7 @@ class LiveDivotCapture:
             )
         if snapshot is None or snapshot.image_number == self._image_number:
             return
-        tool = self._tool_of(instant)
+        tool = self._tool_of(snapshot, instant.source)
         sighting = snapshot.sightings[tool.marker]
         pose = locate_tool(snapshot.setup, tool, sighting, motion=snapshot.motion)
         # What navigation does not show, such as a pose that is uncertain by millimetres, is not certified.
@@ -174,18 +174,12 @@ class LiveDivotCapture:
         )
 
 
-def tool_in_use(instant: Instant, name: str) -> ToolModel:
-    """Return a tool of the newest image.
+def tool_in_use(snapshot: NavigationSnapshot, name: str) -> ToolModel:
+    """Return a tool of an image.
 
     Raises:
-        CaptureError: NO_PICTURE.
         InvalidInput: CERTIFICATE_NOT_APPLICABLE or TOOL_UNKNOWN.
     """
-    snapshot = instant.snapshot
-    if snapshot is None:
-        raise CaptureError(
-            "NO_PICTURE", "there are no more images", "Wait until the video runs, and capture again."
-        )
     reject_uncalibrated(snapshot)
     tool = snapshot.setup.tools.get(name)
     if tool is None:

@@ -148,7 +148,9 @@ class Steps:
             run=procedure.run,
             max_age_s=config.limits.video_stale_after_ms / 1000.0,
         )
-        installed = InstalledCertificates(store.home.folder)
+        certificates, accuracy = _certificate_steps(
+            hub, store, config, defaults, markers=marker_step, latencies=latencies
+        )
         channel_proposer = ChannelProposer(placement)
         store.add_commit_listener(channel_proposer.refresh)
         channel_proposer.refresh()
@@ -162,22 +164,8 @@ class Steps:
                 camera=defaults.source,
                 on_result=setup_publisher.refresh,
             ),
-            certificates=CertificateStep(
-                hub=hub,
-                installed=installed,
-                markers=marker_step,
-                software_version=product_version(),
-            ),
-            accuracy=AccuracyStep(
-                hub=hub,
-                store=store,
-                installed=installed,
-                markers=marker_step,
-                latencies=latencies,
-                cameras=CalibratedCameraFinder(
-                    store, source=defaults.source, calibration=config.camera.calibration
-                ),
-            ),
+            certificates=certificates,
+            accuracy=accuracy,
             markers=marker_step,
             tool=_tool_step(hub, store, config, marker_step),
             ct=CtStep(store=store, jobs=jobs),
@@ -249,6 +237,26 @@ def _camera_step(
         gate=config.calibration,
         source=defaults.source,
         same_sensor_area=config.camera.same_sensor_area,
+    )
+
+
+def _certificate_steps(
+    hub: LiveHub,
+    store: CaseStore,
+    config: Config,
+    defaults: SetupDefaults,
+    *,
+    markers: MarkerStep,
+    latencies: LatencyFile,
+) -> tuple[CertificateStep, AccuracyStep]:
+    """Return the steps that compare certificates with what is in use, and that issue them."""
+    installed = InstalledCertificates(store.home.folder)
+    cameras = CalibratedCameraFinder(store, source=defaults.source, calibration=config.camera.calibration)
+    return (
+        CertificateStep(hub=hub, installed=installed, markers=markers, software_version=product_version()),
+        AccuracyStep(
+            hub=hub, store=store, installed=installed, markers=markers, latencies=latencies, cameras=cameras
+        ),
     )
 
 

@@ -415,7 +415,7 @@ class Recording:
             captured_at_s=at_s,
             skipped_images=snapshot.skipped_images,
             controls=controls_message(None if camera is None else camera.controls),
-            device="" if camera is None else camera.device,
+            device=report.source.device,
             is_predicted=report.is_predicted,
         ).model_dump_json()
         packed = self._packer.pack(image, entry.encoded)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from itertools import pairwise
 from pathlib import Path
-from typing import IO, Any, Literal, TypeAlias
+from typing import IO, Any, Literal, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -38,6 +38,7 @@ Integers: TypeAlias = npt.NDArray[np.int64]
 EventKind: TypeAlias = Literal["navigation", "withheld", "alarm", "acknowledgement", "mark", "note"]
 Report: TypeAlias = Callable[[float, str], None]
 Json: TypeAlias = Any
+Stored = TypeVar("Stored", "RecordingIndex", "RecordingSummary")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,32 +145,34 @@ def store_index(report: Report, *, recording: str) -> dict[str, int]:
 
 def stored_index(recording: Path) -> RecordingIndex | None:
     """Return the stored index of a recording; None without an index of this file and version."""
-    try:
-        with np.load(index_path(recording), allow_pickle=False) as stored:
-            about = _current(stored["about"], recording)
-            if about is None:
-                return None
-            return RecordingIndex(
-                begin_unix_s=about["begin_unix_s"],
-                is_whole=about["is_whole"],
-                events=tuple(TimelineEvent(**one) for one in about["events"]),
-                courses=_courses(about),
-                **{name: stored[name] for name in COLUMNS},
-            )
-    except (OSError, ValueError, KeyError, TypeError, EOFError):
-        return None
+    return _stored(
+        recording,
+        lambda about, columns: RecordingIndex(
+            begin_unix_s=about["begin_unix_s"],
+            is_whole=about["is_whole"],
+            events=tuple(TimelineEvent(**one) for one in about["events"]),
+            courses=_courses(about),
+            **{name: columns[name] for name in COLUMNS},
+        ),
+    )
 
 
 def stored_summary(recording: Path) -> RecordingSummary | None:
     """Return the drillings of the stored index, without reading its columns; None as for `stored_index`."""
+    return _stored(
+        recording,
+        lambda about, _: RecordingSummary(
+            begin_unix_s=about["begin_unix_s"], is_whole=about["is_whole"], courses=_courses(about)
+        ),
+    )
+
+
+def _stored(recording: Path, make: Callable[[Json, Mapping[str, npt.NDArray[Any]]], Stored]) -> Stored | None:
+    """Return what is made from the stored index, whose columns are read when they are used."""
     try:
         with np.load(index_path(recording), allow_pickle=False) as stored:
             about = _current(stored["about"], recording)
-        if about is None:
-            return None
-        return RecordingSummary(
-            begin_unix_s=about["begin_unix_s"], is_whole=about["is_whole"], courses=_courses(about)
-        )
+            return None if about is None else make(about, stored)
     except (OSError, ValueError, KeyError, TypeError, EOFError):
         return None
 

@@ -2,7 +2,7 @@
 import type { AlarmsVerdict } from "../alarms/verdict";
 import type { NumbersVerdict } from "../live/assess";
 import type { DeviationMessage, FigureMessage } from "../live/messages";
-import { FIGURES, figureOf } from "../panes/limits";
+import { FIGURES, figureOf, isWithheld } from "../panes/limits";
 import type { Reading } from "../live/reading";
 
 /** One note: higher for a larger deviation, heard from the side where the channel is. */
@@ -43,10 +43,6 @@ function isQuiet(alarms: AlarmsVerdict): boolean {
     alarms.alarms.sound === "silent" &&
     alarms.alarms.alarms.every(({ priority }) => priority === "low")
   );
-}
-
-function isWithheld({ value, status }: FigureMessage): boolean {
-  return value === null && status !== "outside";
 }
 
 function aligning({ assessment, deviation, along }: Reading): Tone | null {

@@ -9,3 +9,8 @@ export const FIGURES: readonly FigureName[] = ["entry", "angle", "depth", "wall"
 export function figureOf(reading: Reading, name: FigureName): FigureMessage {
   return reading.assessment.figures[name];
 }
+
+/** Outside the bone there is no wall; nothing is withheld then. */
+export function isWithheld({ value, status }: FigureMessage): boolean {
+  return value === null && status !== "outside";
+}

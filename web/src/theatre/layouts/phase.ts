@@ -1,7 +1,7 @@
 // Which layout the position of the drill asks for. Pure: time is an argument.
 import type { NumbersVerdict } from "../../live/assess";
-import type { DeviationMessage, FigureMessage } from "../../live/messages";
-import { FIGURES, figureOf } from "../../panes/limits";
+import type { DeviationMessage } from "../../live/messages";
+import { FIGURES, figureOf, isWithheld } from "../../panes/limits";
 import type { AlarmsVerdict } from "../../alarms/verdict";
 import type { Layout } from "./layout";
 
@@ -46,18 +46,13 @@ export class PhaseFollower {
   }
 }
 
-/** Outside the bone there is no wall; nothing is withheld then. */
-function isThere({ value, status }: FigureMessage): boolean {
-  return value !== null || status === "outside";
-}
-
 function mayChange(
   numbers: NumbersVerdict,
   alarms: AlarmsVerdict,
 ): numbers is Extract<NumbersVerdict, { live: true }> {
   return (
     numbers.live &&
-    FIGURES.every((name) => isThere(figureOf(numbers.reading, name))) &&
+    !FIGURES.some((name) => isWithheld(figureOf(numbers.reading, name))) &&
     alarms.known &&
     alarms.alarms.alarms.length === 0
   );
