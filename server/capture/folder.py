@@ -24,7 +24,10 @@ JPEG_START = b"\xff\xd8\xff"
 
 
 class FolderSource:
-    """Images of a folder at a constant rate; listed again at each repeat, so it may grow."""
+    """Images of a folder at a constant rate; listed again at each repeat, so it may grow.
+
+    It goes on at the file of `first_number`, so that numbers match files also after a restart of the process.
+    """
 
     def __init__(
         self,
@@ -57,8 +60,9 @@ class FolderSource:
         return _unreadable(self._reason_from_unusable) if self._reason_from_unusable else None
 
     def open(self) -> None:
-        """List the folder."""
+        """List the folder, and continue after the image that was returned last."""
         self._list()
+        self._next = self._given_in_pass = self._number % len(self._files)
         self._given = 0
         if self._pacer is not None:
             self._pacer.restart()

@@ -3,12 +3,12 @@
 import contextlib
 import os
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection, wait
 
 from server.capture.rehearsal import PlayedScene
-from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
+from server.live import Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.loop.ring import ImageRing
 
 
@@ -66,6 +66,13 @@ class SharedStatus:
             changed = ring is not self._current.ring
             generation = self._current.generation + (1 if changed else 0)
             self._current = ProcessView(process=process, generation=generation, ring=ring)
+        self.wake()
+
+    def set_problem(self, problem: Problem | None) -> None:
+        """Set why the process does not report although it runs; None for nothing. For the supervisor."""
+        with self._lock:
+            process = replace(self._current.process, problem=problem)
+            self._current = replace(self._current, process=process)
         self.wake()
 
     def set_source(self, source: SourceStatus) -> None:

@@ -1,5 +1,7 @@
 """Starts the tracking process, monitors it, and restarts it when it dies or stops reporting.
 
+Time that the process waits for a processor is no silence: on a busy machine a restart makes it worse.
+
 After 5 restarts in 60 s it reports GIVEN_UP and waits until the first of them is a minute old, because an
 unattended screen in theatre must recover automatically.
 """
@@ -19,17 +21,21 @@ from typing import TypeAlias
 
 import structlog
 
+from server.errors import CaptureError
 from server.live import Problem, ProcessState, ProcessStatus
 from server.loop.compiling import Progress, progress
 from server.loop.forks import exit_text, forking_context
+from server.loop.processor_wait import ProcessorWait
 from server.loop.ring import SLOTS, ImageRing
 from server.loop.shared_status import SharedStatus
 from server.loop.staging import SceneOrder
 from server.loop.tracking_state import StateRequest
 from server.loop.worker import WorkerLink, WorkerOrder, run_worker
+from server.priority import raise_process_priority
 from server.setup import CaseSetup
 
 STOP_TIMEOUT_S = 1.0
+STARVATION_LOG_PERIOD_S = 60.0
 
 Target: TypeAlias = Callable[[WorkerOrder, WorkerLink], None]
 log = structlog.get_logger(__name__)
@@ -40,7 +46,9 @@ class WatchdogSettings:
     """Timeouts and restart limit of the tracking process.
 
     Attributes:
-        silent_after_s: maximum time without a report, after the first tracked image.
+        silent_after_s: maximum time without a report, after the first tracked image. Time in which the
+            process waited for a processor does not count.
+        starved_after_s: time without a report after which it is shown that at least half was such a wait.
         first_image_after_s: the same before it: the first image may have to compile the tracker.
         restarts: maximum number of restarts within `window_s`.
         window_s: see `restarts`.
@@ -49,6 +57,7 @@ class WatchdogSettings:
     """
 
     silent_after_s: float = 2.5
+    starved_after_s: float = 1.0
     first_image_after_s: float = 90.0
     restarts: int = 5
     window_s: float = 60.0
@@ -68,10 +77,12 @@ class Supervisor:
         target: Target = run_worker,
         clock: Callable[[], float] = time.monotonic,
         compiled: Callable[[], Progress] = progress,
+        processor_wait: Callable[[int], ProcessorWait] = ProcessorWait,
         slots: int = SLOTS,
     ) -> None:
         self._slots = slots
         self._compiled = compiled
+        self._processor_wait = processor_wait
         self._order = order
         self._status = status
         self._watchdog = watchdog or WatchdogSettings()
@@ -82,6 +93,7 @@ class Supervisor:
         self._wakeup_reader, self._wakeup_writer = multiprocessing.Pipe(duplex=False)
         self._restarted_at_s: deque[float] = deque()
         self._restarts = 0
+        self._starvation_logged_s = -math.inf
         self._pid: int | None = None
         self._orders_lock = threading.Lock()
         self._orders: Connection | None = None
@@ -197,18 +209,41 @@ class Supervisor:
 
     def _watch_process(self, process: ForkServerProcess, ring: ImageRing) -> Problem:
         """Return when the process is dead, silent, or to be stopped."""
-        began_s = time.monotonic()
+        pid = process.pid or 0
+        waiting = self._processor_wait(pid)
+        seen_s = checked_s = time.monotonic()
+        starved_s, is_starved = 0.0, False
         while True:
             ready = wait([process.sentinel, self._wakeup_reader], timeout=self._watchdog.poll_interval_s)
             if process.sentinel in ready:
                 process.join(STOP_TIMEOUT_S)
-                return _problem("ended", pid=process.pid, how=exit_text(process.exitcode))
+                return _problem("ended", pid=pid, how=exit_text(process.exitcode))
             if self._wakeup_reader in ready:
                 return _problem("was stopped")
+            now_s = time.monotonic()
+            starved_s += waiting.since_last(now_s - checked_s)
+            checked_s = now_s
+            if ring.written_at_s > seen_s:
+                seen_s, starved_s = ring.written_at_s, 0.0
+            silent_s = now_s - seen_s
+            was_starved = is_starved
+            is_starved = silent_s > self._watchdog.starved_after_s and starved_s > silent_s / 2
+            if is_starved:
+                self._show_starvation(pid, silent_s, starved_s, is_first=not was_starved)
+            elif was_starved:
+                self._status.set_problem(None)
             limit_s = self._watchdog.silent_after_s if ring.images else self._watchdog.first_image_after_s
-            silent_s = time.monotonic() - max(ring.written_at_s, began_s)
-            if silent_s > limit_s:
-                return _problem(f"sent nothing for {silent_s:.1f} s, limit {limit_s:g} s", pid=process.pid)
+            if silent_s - starved_s > limit_s:
+                return _problem(f"sent nothing for {silent_s:.1f} s, limit {limit_s:g} s", pid=pid)
+
+    def _show_starvation(self, pid: int, silent_s: float, starved_s: float, *, is_first: bool) -> None:
+        problem = _starved(silent_s, starved_s)
+        self._status.set_problem(problem)
+        if is_first:
+            raise_process_priority(pid)
+            if self._clock() - self._starvation_logged_s > STARVATION_LOG_PERIOD_S:
+                self._starvation_logged_s = self._clock()
+                log.warning(problem.message, code=problem.code, remedy=problem.remedy)
 
     def _end(self, process: ForkServerProcess) -> None:
         if self._stop.is_set():
@@ -273,6 +308,17 @@ def _problem(what: str, **details: object) -> Problem:
         remedy="It is restarted automatically; if this repeats, check the server log.",
         context=details,
     )
+
+
+def _starved(silent_s: float, starved_s: float) -> Problem:
+    error = CaptureError(
+        "TRACKING_STARVED",
+        f"this computer is overloaded: no image was tracked for {silent_s:.1f} s, of which the tracking "
+        f"process waited {starved_s:.1f} s for a processor",
+        "Close other programs on this computer. Tracking continues as soon as it gets a processor.",
+        {"silent_s": silent_s, "starved_s": starved_s},
+    )
+    return Problem.from_error(error)
 
 
 def _given_up(watchdog: WatchdogSettings, last: Problem) -> Problem:

@@ -84,6 +84,14 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "de": "der Videostrom {stream} sendete nacheinander {images} abgeschnittene Bilder",
         },
     ),
+    "TRACKING_STARVED": (
+        {
+            "en": "this computer is overloaded: no image was tracked for {silent_s:.1f} s, of which the "
+            "tracking process waited {starved_s:.1f} s for a processor",
+            "de": "dieser Rechner ist überlastet: {silent_s:.1f} s lang wurde kein Bild ausgewertet, davon "
+            "wartete der Tracking-Prozess {starved_s:.1f} s auf einen Prozessor",
+        },
+    ),
     "STREAM_WITHOUT_VIDEO": (
         {
             "en": "the stream {stream} is reachable, but sent no video within {timeout_s:g} s",

@@ -130,6 +130,19 @@ def test_a_folder_is_read_in_the_order_a_person_sorts(tmp_path: Path, stop: thre
     assert [path.name for path in sorted(names, key=natural_order)] == ["9a", "10", "a9", "a10", "b"]
 
 
+@pytest.mark.parametrize(
+    ("first_number", "levels"), [(0, [1, 2, 3, 1]), (1, [2, 3, 1, 2]), (5, [3, 1, 2, 3])]
+)
+def test_after_a_restart_of_the_process_numbers_match_files(
+    first_number: int, levels: list[int], tmp_path: Path, stop: threading.Event
+) -> None:
+    write_images(tmp_path / "f", {"1.png": 10, "2.png": 20, "3.png": 30})
+    source = FolderSource(tmp_path / "f", loop=True, fast=True, stop=stop, first_number=first_number)
+    shots = read_all(source, maximum=4)
+    assert [level(shot) for shot in shots] == levels
+    assert [shot.number for shot in shots] == [first_number + index for index in range(4)]
+
+
 def test_a_bad_image_is_left_out_and_reported(tmp_path: Path, stop: threading.Event) -> None:
     images = write_images(tmp_path / "f", {"1.png": 10, "3.png": 30})
     (images / "2.png").write_bytes(b"not a picture")

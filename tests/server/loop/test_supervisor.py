@@ -10,6 +10,7 @@ from server.config import Config
 from server.live import Instant, ProcessState
 from server.logs import LogSettings
 from server.loop.compiling import Progress
+from server.loop.processor_wait import ProcessorWait
 from server.loop.publisher import Publisher
 from server.loop.shared_status import SharedStatus
 from server.loop.supervisor import Supervisor, Target, WatchdogSettings
@@ -20,11 +21,24 @@ from tests.server.loop.fake_workers import Seen, echoing_worker, failing_worker,
 COMPILED = Progress(done=3, total=3)
 
 
+class AlwaysWaiting(ProcessorWait):
+    """A process that gets no processor, until `is_served`."""
+
+    is_served = False
+
+    def since_last(self, elapsed_s: float) -> float:
+        return 0.0 if self.is_served else elapsed_s
+
+
 class Stage:
     """Supervisor and publisher around a process that the test chooses."""
 
     def __init__(
-        self, target: Target, watchdog: WatchdogSettings, compiled: Callable[[], Progress] = lambda: COMPILED
+        self,
+        target: Target,
+        watchdog: WatchdogSettings,
+        compiled: Callable[[], Progress] = lambda: COMPILED,
+        processor_wait: Callable[[int], ProcessorWait] = ProcessorWait,
     ) -> None:
         self.hub = Seen()
         # Stopped unless a test advances it: start times of processes are not tested.
@@ -38,6 +52,7 @@ class Stage:
             target=target,
             clock=lambda: self.now_s,
             compiled=compiled,
+            processor_wait=processor_wait,
         )
         self.publisher = Publisher(status=status, hub=self.hub)
         self.supervisor.start()
@@ -124,6 +139,37 @@ def test_a_process_that_hangs_is_killed_and_replaced(
     assert "limit 0.3 s" in dead.process.problem.message
     stage.hub.until(shows_image, after=dead.sequence)
     assert not exists(pid)
+
+
+def test_a_process_that_waits_for_a_processor_is_named_and_not_killed() -> None:
+    waits: list[AlwaysWaiting] = []
+
+    def always_waiting(pid: int) -> ProcessorWait:
+        waits.append(AlwaysWaiting(pid))
+        return waits[-1]
+
+    watchdog = WatchdogSettings(silent_after_s=0.3, starved_after_s=0.1, poll_interval_s=0.02)
+    stage = Stage(silent_worker, watchdog, processor_wait=always_waiting)
+    try:
+        stage.hub.until(shows_image)
+        pid = stage.supervisor.pid
+
+        def is_starved_beyond_the_limit(instant: Instant) -> bool:
+            problem = instant.process.problem
+            if problem is None or problem.code != "TRACKING_STARVED":
+                return False
+            return float(str(problem.context["silent_s"])) > 2 * watchdog.silent_after_s
+
+        starved = stage.hub.until(is_starved_beyond_the_limit)
+        assert starved.process.state is ProcessState.RUNNING
+        assert starved.is_stopped, "no figures are shown meanwhile"
+        assert stage.supervisor.pid == pid
+        waits[0].is_served = True
+        dead = stage.hub.until(is_dead)
+        assert dead.process.problem is not None
+        assert dead.process.problem.code == "TRACKING_PROCESS_ENDED"
+    finally:
+        stage.end()
 
 
 def test_a_process_that_always_fails_is_given_up_and_tried_again_later(

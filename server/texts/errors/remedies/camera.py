@@ -58,6 +58,11 @@ CAMERA: tuple[Text, ...] = (
         "andere App darf seine Kamera verwenden.",
     },
     {
+        "en": "Close other programs on this computer. Tracking continues as soon as it gets a processor.",
+        "de": "Andere Programme auf diesem Rechner schließen. Das Tracking läuft weiter, sobald es einen "
+        "Prozessor bekommt.",
+    },
+    {
         "en": "Touch STOP on it or close its page, then touch START here.",
         "de": "Dort STOP berühren oder die Seite schließen, dann hier START berühren.",
     },
