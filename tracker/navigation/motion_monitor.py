@@ -3,7 +3,8 @@
 A detected motion persists until a new registration. A check on one landmark resets it only with a reference,
 because a rotation about that landmark is not observable there. A registration disturbed by a cable must be
 repeated, however small the shift. While hands occlude the scene the state is undetermined and reported as
-such.
+such. A reference that sways as a breath may do withholds the registration only while it is displaced, until a
+rhythm is known.
 """
 
 from collections.abc import Mapping
@@ -50,7 +51,7 @@ class MotionMonitor:
         self._looked_at_s = -np.inf
         self._reference: ReferenceMonitor | None = None
         self._in_place_at_s = -np.inf
-        self._reference_is_elsewhere = False
+        self._reference_is_elsewhere = self._reference_sways = False
         self._camera_moved_at_s = -np.inf
         self._reference_moved_at_s = -np.inf
         self._holds_from_s = -np.inf
@@ -77,7 +78,8 @@ class MotionMonitor:
         if not np.array_equal(self._lens, setup.camera.lens):
             # Another camera model changes all poses without any motion.
             self._lens = setup.camera.lens
-            self._jumps, self._reference, self._reference_is_elsewhere = {}, None, False
+            self._jumps, self._reference = {}, None
+            self._reference_is_elsewhere = self._reference_sways = False
         jumped = frozenset(
             name
             for name, seen in sightings.items()
@@ -94,7 +96,7 @@ class MotionMonitor:
         return MotionState(
             jumped=jumped,
             camera_moved=self._camera_moved_at_s > self._holds_from_s,
-            reference_moved=self._reference_moved_at_s > self._holds_from_s,
+            reference_moved=self._reference_sways or self._reference_moved_at_s > self._holds_from_s,
             scene=self._scene_state,
             unseen_s=self._sight.ages_s(sightings, at_s=at_s),
         )
@@ -120,7 +122,7 @@ class MotionMonitor:
             # Monitor the new position from here on; the old registration is already invalid.
             self._keep_scene(grey, sightings)
             # Otherwise the reference would seem to have moved in the new, static scene.
-            self._reference = None
+            self._reference, self._reference_sways = None, False
 
     def _keep_scene(self, grey: npt.NDArray[np.uint8], sightings: Mapping[str, Sighting]) -> None:
         moving = [_roomy(seen.corners_px) for seen in sightings.values() if isinstance(seen, Seen)]
@@ -128,24 +130,27 @@ class MotionMonitor:
 
     def _look_at_reference(self, seen: Seen, at_s: float) -> None:
         if self._reference is None:
-            self._reference = ReferenceMonitor(seen.camera_from_marker)
-            self._reference_is_elsewhere = False
-            self._in_place_at_s = at_s
+            self._begin_reference(seen, at_s)
             return
         # Only a scene check after the displacement can identify the moving object.
         is_new = self._looked_at_s > self._in_place_at_s
         check = self._reference.check(
-            seen.camera_from_marker, self._scene_state if is_new else SceneState.UNSURE
+            seen.camera_from_marker, self._scene_state if is_new else SceneState.UNSURE, at_s=at_s
         )
         self._reference_is_elsewhere = check.images > 0
+        if check.state is not ReferenceState.UNDETERMINED:
+            self._reference_sways = check.state is ReferenceState.SWAYING
         if not self._reference_is_elsewhere:
             self._in_place_at_s = at_s
         if check.state is ReferenceState.MOVED:
             self._reference_moved_at_s = at_s
         if check.state in {ReferenceState.MOVED, ReferenceState.WITH_CAMERA}:
-            self._reference = ReferenceMonitor(seen.camera_from_marker)
-            self._reference_is_elsewhere = False
-            self._in_place_at_s = at_s
+            self._begin_reference(seen, at_s)
+
+    def _begin_reference(self, seen: Seen, at_s: float) -> None:
+        self._reference = ReferenceMonitor(seen.camera_from_marker)
+        self._reference_is_elsewhere = self._reference_sways = False
+        self._in_place_at_s = at_s
 
 
 def _roomy(corners_px: Array) -> Array:

@@ -88,3 +88,15 @@ def test_a_reference_that_moved_is_reported_soon_and_not_taken_for_a_camera() ->
 def test_where_nothing_moves_nothing_is_said() -> None:
     said = _watched(camera_px=0.0, reference_mm=0.0)
     assert not any(each.camera_moved or each.reference_moved for each in said)
+
+
+def test_a_breathing_patient_before_a_still_scene_keeps_the_registration() -> None:
+    scene, watching = _scene(), MotionMonitor()
+    said = []
+    for number in range(round(24.0 * HZ)):
+        at_s = number / HZ
+        breath_mm = 4.0 * (1.0 - np.cos(2.0 * np.pi * at_s / 4.0))
+        motion = watching.take(SETUP, scene, {"reference": _reference(breath_mm)}, at_s=at_s)
+        said.append(motion.reference_moved)
+    assert any(said[: round(8.0 * HZ)]), "the first two breaths are doubted"
+    assert not any(said[round(8.0 * HZ) :])
