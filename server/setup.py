@@ -166,7 +166,7 @@ class Preparation:
         registration = self.registration
         is_known = isinstance(registration, Registration) and registration.method is Method.REHEARSAL
         if self.theatre is not None and is_known:
-            return _rehearsal_drill_reference(self.theatre)
+            return _rehearsal_drill_reference()
         return DrillReference.of_channel(channel)
 
     @property
@@ -347,12 +347,13 @@ def _with_theatre_setup(base: Preparation, theatre: "Theatre") -> Preparation:
 
 
 @lru_cache(maxsize=1)
-def _rehearsal_drill_reference(theatre: "Theatre") -> DrillReference:
-    """Return the exact drill reference of a simulated theatre."""
-    radius_mm = theatre.tool.radius_mm
-    return DrillReference(
-        wall=select_wall(theatre.channels[0], theatre.surface, None, radius_mm=radius_mm).wall
-    )
+def _rehearsal_drill_reference() -> DrillReference:
+    """Return the exact drill reference of the simulated vertebra, which is the same in each theatre."""
+    from tracker.rehearsal.anatomy import pedicle_channels, vertebra_surface  # noqa: PLC0415  rehearsals only
+    from tracker.rehearsal.theatre import DRILL_RADIUS_MM  # noqa: PLC0415
+
+    channel = pedicle_channels()[0]
+    return DrillReference(wall=select_wall(channel, vertebra_surface(), None, radius_mm=DRILL_RADIUS_MM).wall)
 
 
 def camera_for_size(

@@ -11,13 +11,12 @@ from typing import Any
 from fastapi import APIRouter, FastAPI
 from fastapi.responses import HTMLResponse
 
-from server.api.errors import STATUS_TEXTS
+from server.api.errors import PROBLEM_CONTENT, STATUS_TEXTS
 
 Schema = Mapping[str, Any]
 
 FRAMEWORK_ERROR_SCHEMA = "HTTPValidationError"
 FRAMEWORK_SCHEMAS = (FRAMEWORK_ERROR_SCHEMA, "ValidationError")
-PROBLEM_CONTENT = {"application/json": {"schema": {"$ref": "#/components/schemas/ProblemMessage"}}}
 PROBLEM_422 = {"description": STATUS_TEXTS[422], "content": PROBLEM_CONTENT}
 # Every request with a body can time out.
 PROBLEM_408 = {"description": STATUS_TEXTS[408], "content": PROBLEM_CONTENT}

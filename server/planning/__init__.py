@@ -1,1 +1,1 @@
-"""Job functions for CTs and meshes, which run in separate processes and import neither store nor web."""
+"""Job functions for cameras, CTs and meshes, which run in processes and import neither store nor web."""

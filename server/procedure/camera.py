@@ -3,20 +3,20 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from server.calibration import accuracy_values, coverage_svg, report_values, residuals_svg, view_values
+from server.calibration import accuracy_values
 from server.camera_file import CameraFile, controls_in, controls_values, readout_in
 from server.config import CalibrationConfig
 from server.errors import CaptureError, SetupOrderError
-from server.jobs import Job, Jobs, Report
+from server.jobs import Job, Jobs
 from server.live import LiveHub
-from server.procedure.board_collection import BoardCollection, CollectedView
+from server.planning.camera import calibrate_views
+from server.procedure.board_collection import BoardCollection
 from server.procedure.collecting_step import CollectingStep
 from server.procedure.open_case import require_open_case
 from server.setup import camera_for_size
 from server.store import Case, CaseStore, Document, DocumentKind, Validity
 from tracker.camera import Board, CameraControl, CameraModel
 from tracker.camera.accuracy import accuracy_of_grid
-from tracker.camera.calibration import calibrate, with_board_size_warning
 from tracker.camera.detection import BoardNotFound, find_board
 from tracker.errors import CalibrationError, InvalidInput
 
@@ -89,7 +89,12 @@ class CameraStep(CollectingStep[BoardCollection]):
         return self._jobs.start(
             "calibrating the camera",
             calibrate_views,
-            {"taken": taken, "size_wh_px": status.size_wh_px, "board": status.board},
+            {
+                "views": tuple(one.view for one in taken),
+                "names": tuple(one.name for one in taken),
+                "size_wh_px": status.size_wh_px,
+                "board": status.board,
+            },
             conclude=keep,
         )
 
@@ -203,20 +208,6 @@ class CameraStep(CollectingStep[BoardCollection]):
         if list(camera.get("size_wh_px", ())) != list(size_wh_px):
             return {}
         return {key: camera[key] for key in READOUT_KEYS if key in camera}
-
-
-def calibrate_views(
-    report: Report, *, taken: tuple[CollectedView, ...], size_wh_px: tuple[int, int], board: Board
-) -> dict[str, object]:
-    """Job: calibrate the camera; return its parameters with the report, and the plots."""
-    report(0.1, f"fitting the camera to {len(taken)} views")
-    views = [one.view for one in taken]
-    fitted = calibrate(views, size_wh_px=size_wh_px, names=[one.name for one in taken])
-    found = with_board_size_warning(fitted, views, board)
-    return {
-        "report": {**report_values(found), "views": [view_values(view) for view in found.views]},
-        "plots": {"residuals": residuals_svg(found), "coverage": coverage_svg(found)},
-    }
 
 
 def camera_from_document(document: Document, *, source: str) -> CameraFile:

@@ -1,21 +1,21 @@
 """The rolling-shutter readout time of the camera: measured or entered, stored with its calibration."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
 from server.camera_file import readout_in
 from server.errors import SetupOrderError
-from server.jobs import Job, Jobs, Report
+from server.jobs import Job, Jobs
 from server.live import LiveHub
+from server.planning.camera import fit_readout
 from server.procedure.camera import MAIN_CAMERA, READOUT_KEYS, camera_from_document
 from server.procedure.collecting_step import CollectingStep
 from server.procedure.open_case import require_open_case
 from server.procedure.readout_collection import BurstStage, ReadoutCollection
 from server.store import Case, CaseStore, Document, DocumentKind
 from tracker.camera import Board, CameraModel
-from tracker.camera.readout_time import TimedView, estimate_readout
 from tracker.errors import CalibrationError
 
 
@@ -158,13 +158,6 @@ def _reject_other_size(size_wh_px: tuple[int, int], camera: CameraModel) -> None
         f"{width}x{height} px.",
         {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_before, height_before]},
     )
-
-
-def fit_readout(report: Report, *, views: tuple[TimedView, ...], camera: CameraModel) -> dict[str, object]:
-    """Job: estimate the readout time."""
-    report(0.1, f"fitting the readout to {len(views)} images")
-    found = estimate_readout(views, camera)
-    return {**asdict(found), "used_ms": found.used_ms}
 
 
 def _values(readout_ms: float, sd_ms: float | None, found_by: ReadoutSource) -> dict[str, object]:

@@ -1,11 +1,19 @@
-"""The whole API against its own schema: no internal error, and no undocumented answer."""
+"""The whole API against its own schema: no internal error, and no undocumented answer.
 
+The test sends each address the same few requests each time. A search with more of them, others each time:
+
+    PYTHONPATH=. python tests/procedure/test_api_by_its_schema.py --tries 100
+"""
+
+import argparse
+import tempfile
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 import schemathesis
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
@@ -27,7 +35,7 @@ CHECKS = [
     content_type_conformance,
     response_schema_conformance,
 ]
-TRIES = 12
+TRIES = 6
 # An endless stream.
 ENDLESS = "/video/{camera}.mjpg"
 FILES = ("application/zip", "model/stl", "model/obj", "model/ply")
@@ -36,10 +44,10 @@ for kind in FILES:
     schemathesis.openapi.media_type(kind, st.binary(max_size=200))
 
 
-@pytest.fixture(scope="module")
-def schema(tmp_path_factory: pytest.TempPathFactory) -> Iterator[schemathesis.BaseSchema]:
+@contextmanager
+def schema_of_server(folder: Path) -> Iterator[schemathesis.BaseSchema]:
     """A server with an open case and a live image."""
-    with serving(tmp_path_factory.mktemp("lived_in")) as server:
+    with serving(folder) as server:
         case = server.ask("POST", "/api/cases", 201, json={"name": "somebody"})
         server.ask("POST", f"/api/cases/{case['id']}/open", 200)
         server.show(at_s=1.0, image=np.zeros((720, 1280, 3), dtype=np.uint8), rate_hz=30.0)
@@ -50,7 +58,10 @@ def schema(tmp_path_factory: pytest.TempPathFactory) -> Iterator[schemathesis.Ba
             yield schema
 
 
-def test_every_address_answers_as_it_is_described(schema: schemathesis.BaseSchema) -> None:
+def request_every_address(
+    schema: schemathesis.BaseSchema, *, tries: int, is_repeated: bool
+) -> tuple[Counter[str], Counter[str]]:
+    """Check the answers to requests that the schema allows; return the number of all and of accepted ones."""
     requested: Counter[str] = Counter()
     accepted: Counter[str] = Counter()
 
@@ -60,9 +71,9 @@ def test_every_address_answers_as_it_is_described(schema: schemathesis.BaseSchem
         accepted[case.operation.label] += answer.status_code < 300
         case.validate_response(answer, checks=CHECKS)
 
-    same_each_time = settings(
-        max_examples=TRIES,
-        derandomize=True,
+    sampled = settings(
+        max_examples=tries,
+        derandomize=is_repeated,
         deadline=None,
         database=None,
         suppress_health_check=list(HealthCheck),
@@ -72,6 +83,20 @@ def test_every_address_answers_as_it_is_described(schema: schemathesis.BaseSchem
         assert isinstance(found, Ok), found
         operation = found.ok()
         if operation.path != ENDLESS:
-            same_each_time(given(operation.as_strategy())(hold_to_its_word))()
+            sampled(given(operation.as_strategy())(hold_to_its_word))()
+    return requested, accepted
+
+
+def test_every_address_answers_as_it_is_described(tmp_path: Path) -> None:
+    with schema_of_server(tmp_path) as schema:
+        requested, accepted = request_every_address(schema, tries=TRIES, is_repeated=True)
     assert len(requested) > 100, "too few addresses were asked: is the description whole?"
     assert sum(count > 0 for count in accepted.values()) > 25, "nearly everything was refused"
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--tries", type=int, default=100, help="requests to each address")
+    with tempfile.TemporaryDirectory() as home, schema_of_server(Path(home)) as described:
+        sent, _ = request_every_address(described, tries=parser.parse_args().tries, is_repeated=False)
+    print(f"{sent.total()} requests to {len(sent)} addresses: all answers are as described")  # noqa: T201

@@ -1,13 +1,17 @@
 """Camera calibration through the API, from rehearsed images of a board with a known camera."""
 
+import shutil
+from contextlib import ExitStack
 from functools import lru_cache
+from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 
 from server.live import CameraStatus, ImageClock
-from tests.procedure.conftest import Server
+from server.store import DocumentKind
+from tests.procedure.conftest import Server, serving
 from tracker.camera import CameraControl, CameraModel
 from tracker.rehearsal import BoardKind, Scene, Theatre, TheatreSettings
 from tracker.rehearsal.boards import HOLD_S, MOVE_S, PLACES
@@ -132,37 +136,52 @@ def test_identity_and_controls_of_the_camera_are_kept_with_its_calibration_and_c
     assert stored["content"]["camera"]["device"] == server.adopted[-1].camera_device == "Webcam"
 
 
-def test_another_calibration_of_the_same_mode_keeps_the_readout(server: Server) -> None:
-    open_a_case(server)
-    _, images = shown()
-
-    def calibrate() -> None:
-        server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
-        for image in images[:8]:
-            server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
-        job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
-        assert job["state"] == "done", job["problem"]
-
-    calibrate()
-    server.ask("PUT", "/api/camera/readout", 200, json={"readout_ms": 16.5, "made_by": "ito"})
-    calibrate()
-    stored = server.ask("GET", "/api/camera/calibration", 200)
-    assert (stored["heading"]["version"], stored["content"]["camera"]["readout_ms"]) == (3, 16.5)
-    assert server.adopted[-1].readout_ms == 16.5
-
-
-def test_a_withdrawn_camera_is_used_no_more(server: Server) -> None:
-    case_id = open_a_case(server)
+def calibrate(server: Server) -> None:
+    """Calibrate the camera with a few images."""
     _, images = shown()
     server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
     for image in images[:8]:
         server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
     job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
+    assert job["state"] == "done", job["problem"]
+
+
+@pytest.fixture(scope="module")
+def calibrated_home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a server whose open case has a calibrated camera."""
+    folder = tmp_path_factory.mktemp("calibrated")
+    with serving(folder) as server:
+        open_a_case(server)
+        calibrate(server)
+    return folder
+
+
+@pytest.fixture
+def calibrated_server(calibrated_home: Path, tmp_path: Path, turns: ExitStack) -> Server:
+    """A server started in a copy of that folder."""
+    shutil.copytree(calibrated_home, tmp_path, dirs_exist_ok=True)
+    return turns.enter_context(serving(tmp_path))
+
+
+def test_another_calibration_of_the_same_mode_keeps_the_readout(calibrated_server: Server) -> None:
+    server = calibrated_server
+    server.ask("PUT", "/api/camera/readout", 200, json={"readout_ms": 16.5, "made_by": "ito"})
+    calibrate(server)
+    stored = server.ask("GET", "/api/camera/calibration", 200)
+    assert (stored["heading"]["version"], stored["content"]["camera"]["readout_ms"]) == (3, 16.5)
+    assert server.adopted[-1].readout_ms == 16.5
+
+
+def test_a_withdrawn_camera_is_used_no_more(calibrated_server: Server) -> None:
+    server = calibrated_server
+    case = server.store.get_open_case()
+    assert case is not None
+    camera = server.store.current(case.id, DocumentKind.CAMERA, "main")
     assert camera_in_use(server) is not None
-    path = f"/api/cases/{case_id}/documents/{job['result']['document_id']}/withdrawal"
+    path = f"/api/cases/{case.id}/documents/{camera.id}/withdrawal"
     server.ask("POST", path, 200, json={"by": "ito", "reason": "the lens was turned"})
     assert camera_in_use(server) is None
-    server.ask("POST", f"/api/cases/{case_id}/close", 200)
+    server.ask("POST", f"/api/cases/{case.id}/close", 200)
 
 
 def test_views_are_taken_by_themselves_from_the_live_images(server: Server) -> None:

@@ -2,6 +2,7 @@
 
 import json
 import shlex
+import shutil
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -42,10 +43,21 @@ def rehearsed(folder: Path, *faults: str, rulers: str | None = None) -> list[str
     return words
 
 
+@pytest.fixture(scope="module")
+def certified(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a rehearsal, its certificate, and the home folder whose key signed it."""
+    folder = tmp_path_factory.mktemp("certified")
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        monkeypatch.setenv("COAXIAL_HOME", str(folder / "home"))
+        words = rehearsed(folder / "test")
+        assert "Certified to" in typed(*words, "--output", folder / "certificate", "--by", "Anna")
+    return folder
+
+
 @pytest.fixture
-def certificate(tmp_path: Path) -> Path:
-    words = rehearsed(tmp_path / "test")
-    assert "Certified to" in typed(*words, "--output", tmp_path / "certificate", "--by", "Anna")
+def certificate(certified: Path, tmp_path: Path) -> Path:
+    """The certificate in a copy of that folder."""
+    shutil.copytree(certified, tmp_path, dirs_exist_ok=True)
     return tmp_path / "certificate.json"
 
 

@@ -24,7 +24,7 @@ def typed(*words: str | Path) -> tuple[int, str]:
     return result.exit_code, result.stdout
 
 
-ORDER = ("design", "--seed", "1", "--proposals", "20", "--side-mm", "25.4", "--output")
+ORDER = ("design", "--seed", "1", "--proposals", "5", "--side-mm", "25.4", "--output")
 
 
 @pytest.fixture(scope="module")

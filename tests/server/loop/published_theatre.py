@@ -180,6 +180,7 @@ class ShownTheatre:
         columns, rows = np.rint(self._theatre.camera.px_from_camera(points)).astype(int).T
         inside = (columns >= 0) & (columns < WIDTH) & (rows >= 0) & (rows < HEIGHT)
         assert inside.sum() > 20
-        drawn = draw_overlay(instant.image, instant.snapshot, instant.alarms).astype(int)
-        change = np.abs(drawn - instant.image.astype(int)).max(axis=2)[rows[inside], columns[inside]]
+        drawn = draw_overlay(instant.image, instant.snapshot, instant.alarms)
+        on_shaft = rows[inside], columns[inside]
+        change = np.abs(drawn[on_shaft].astype(int) - instant.image[on_shaft].astype(int)).max(axis=1)
         return bool((change > DRAWN_BY).mean() > 0.5)

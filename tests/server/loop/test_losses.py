@@ -72,16 +72,17 @@ LOSSES = {
 
 
 class Theatres:
-    """Makes theatres that share their static background."""
+    """Makes theatres that share their static background, by whether they have a reference."""
 
-    def __init__(self, patch: pytest.MonkeyPatch) -> None:
-        self._patch = patch
+    def __init__(self, patch: pytest.MonkeyPatch, rendered: dict[bool, Renderer]) -> None:
+        self._patch, self._rendered = patch, rendered
         self._made: list[ShownTheatre] = []
-        self._after: Renderer | None = None
 
     def make(self, event: str, *, size_mm: float = 12.0, reference: bool = True) -> ShownTheatre:
         events = [RehearsalEventConfig.model_validate({"kind": event, "at_s": AT_S, "size_mm": size_mm})]
-        made = ShownTheatre(events, self._patch, reference=reference)
+        after = self._rendered.get(reference)
+        made = ShownTheatre(events, self._patch, reference=reference, after=after)
+        self._rendered[reference] = made.renderer
         self._made.append(made)
         return made
 
@@ -90,9 +91,14 @@ class Theatres:
             one.close()
 
 
+@pytest.fixture(scope="module")
+def rendered() -> dict[bool, Renderer]:
+    return {}
+
+
 @pytest.fixture
-def theatres(monkeypatch: pytest.MonkeyPatch) -> Iterator[Theatres]:
-    made = Theatres(monkeypatch)
+def theatres(monkeypatch: pytest.MonkeyPatch, rendered: dict[bool, Renderer]) -> Iterator[Theatres]:
+    made = Theatres(monkeypatch, rendered)
     yield made
     made.close()
 

@@ -4,7 +4,6 @@ import random
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from server.alarms import AlarmService
@@ -123,13 +122,14 @@ def test_too_deep_is_announced_within_a_quarter_of_a_second_of_its_image(
 ) -> None:
     """Delay from the capture of the first image with the condition to the instant that carries the sound.
 
-    Tracking takes 20 to 80 ms, and one image in ten is lost, on the test's own clock.
+    Tracking takes 20 to 80 ms, and one image in ten is lost, on the test's own clock. The distribution for a
+    running server is in the benchmark (`tests/benchmarks/alarms/latency.py`).
 
     """
     rng, late_s, now = random.Random(5), [], [0.0]
     monkeypatch.setattr("server.loop.publisher.time.monotonic", lambda: now[0])
     shots = {deep: snapshot_of(tip_in_vertebra_mm=(0.0, 0.0, 41.0 if deep else 30.0)) for deep in (0, 1)}
-    for _ in range(50):
+    for _ in range(12):
         service, now[0] = AlarmService(Config(), clock=lambda: now[0]), 0.0
         stage, images = Stage(check_alarms=service.observe), moments(rate_hz, 0.5, rng)
         first_s = next(grabbed_s for _, grabbed_s, deep in images if deep)
@@ -145,5 +145,5 @@ def test_too_deep_is_announced_within_a_quarter_of_a_second_of_its_image(
             stage.publisher.publish_newest()
         assert stage.hub.instants[-1].alarms.sound is Sound.HIGH
         late_s.append(now[0] - first_s)
-    assert np.percentile(late_s, 99) <= 0.25
+    assert max(late_s) <= 0.25
     assert min(late_s) > 0.02

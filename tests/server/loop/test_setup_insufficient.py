@@ -1,6 +1,7 @@
 """Good drilling in the rehearsal with good and bad registration: the headline separates set-up from image."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from server.capture.shot import Shot
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.loop.tracking import Tracking
-from server.setup import CaseSetup, build_setup
+from server.setup import CaseSetup, Preparation, build_setup
 from server.texts import headline_of
 from tracker.navigation import Assessment, FigureName, Verdict
 from tracker.navigation.alarms import Condition
@@ -20,7 +21,15 @@ from tracker.registration import Method, Registration
 
 # The drill is well inside the bone, and its marker is in view.
 BEGIN_S, RATE_HZ, IMAGES = 14.0, 10.0, 8
-REHEARSAL = {"seed": 3, "skill": "good", "width": 960, "height": 540}
+CONFIG = Config.model_validate({"rehearsal": {"seed": 3, "skill": "good", "width": 960, "height": 540}})
+
+
+@cache
+def filmed() -> tuple[Preparation, tuple[np.ndarray, ...]]:
+    preparation = build_setup(CONFIG)
+    assert preparation.theatre is not None
+    renderer = preparation.theatre.renderer()
+    return preparation, tuple(renderer.image_at(BEGIN_S + number / RATE_HZ) for number in range(IMAGES))
 
 
 @pytest.mark.parametrize(
@@ -35,8 +44,7 @@ REHEARSAL = {"seed": 3, "skill": "good", "width": 960, "height": 540}
 def test_headline_and_alarm_of_good_drilling_name_what_is_uncertain(
     registered_sd_mm: float, tolerance_mm: float, verdict: Verdict | None, condition: Condition | None
 ) -> None:
-    config = Config.model_validate({"rehearsal": REHEARSAL})
-    preparation = build_setup(config)
+    preparation, images = filmed()
     theatre, channel, known = preparation.theatre, preparation.channel, preparation.registration
     assert theatre is not None
     assert isinstance(channel, Channel)
@@ -54,16 +62,15 @@ def test_headline_and_alarm_of_good_drilling_name_what_is_uncertain(
             registered_from_s=0.0,
         )
     )
-    renderer = theatre.renderer()
     now = [BEGIN_S]
-    alarms = AlarmService(config, clock=lambda: now[0])
+    alarms = AlarmService(CONFIG, clock=lambda: now[0])
     source = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
     process = ProcessStatus(state=ProcessState.RUNNING)
     verdicts: set[Verdict] = set()
     conditions: set[Condition] = set()
     for number in range(IMAGES):
         now[0] = now_s = BEGIN_S + number / RATE_HZ
-        shot = Shot(image=renderer.image_at(now_s), number=number, captured_at_s=now_s, source_time_s=now_s)
+        shot = Shot(image=images[number], number=number, captured_at_s=now_s, source_time_s=now_s)
         snapshot = tracking.process(shot, skipped_images=0, clock=lambda: now[0])
         picture = alarms.observe(snapshot, source, process)
         conditions |= {one.condition for one in picture.alarms}

@@ -13,16 +13,16 @@ from server.overlay import draw_overlay, panel_of
 from server.setup import build_setup
 from server.stream.messages import live_message
 from server.stream.pose_messages import ToolMessage
+from server.theatre import theatre_from_config
 from tracker.navigation import NavigationSnapshot, ToolPose
 
+REHEARSAL = RehearsalConfig(width=640, height=360)
 
-def concluded(smoothing: SmoothingConfig) -> ToolPose:
+
+def concluded(image: np.ndarray, smoothing: SmoothingConfig) -> ToolPose:
     """The drill of the rehearsal in the fourth of four equal images, 30 a second."""
-    config = Config(rehearsal=RehearsalConfig(width=640, height=360), smoothing=smoothing)
-    preparation = build_setup(config)
-    assert preparation.theatre is not None
+    preparation = build_setup(Config(rehearsal=REHEARSAL, smoothing=smoothing))
     tracking = Tracking(preparation)
-    image = preparation.theatre.renderer().image_at(0.0)
     for k in range(4):
         shot = Shot(image=image, number=k, captured_at_s=k / 30, source_time_s=k / 30)
         tool = tracking.process(shot, skipped_images=0).tools["drill"]
@@ -31,8 +31,9 @@ def concluded(smoothing: SmoothingConfig) -> ToolPose:
 
 
 def test_poses_are_steadied_where_it_is_set_and_by_default_not_at_all() -> None:
-    assert concluded(SmoothingConfig()).lag_ms == 0.0
-    assert round(concluded(SmoothingConfig(lag_ms=50, near_wall=True)).lag_ms, 3) == 50.0
+    image = theatre_from_config(REHEARSAL).renderer().image_at(0.0)
+    assert concluded(image, SmoothingConfig()).lag_ms == 0.0
+    assert round(concluded(image, SmoothingConfig(lag_ms=50, near_wall=True)).lag_ms, 3) == 50.0
 
 
 def test_the_lag_is_in_the_message_in_the_panel_and_in_the_picture(

@@ -2,7 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 import numpy as np
@@ -46,6 +48,20 @@ RUNNING = ProcessStatus(state=ProcessState.RUNNING)
 
 def write_drilling(path: Path, modes: Sequence[str] = DRILLED) -> Path:
     """Write a recording with one image for each mode, from navigation to a breach and back."""
+    path.write_bytes(_recorded(tuple(modes)))
+    return path
+
+
+@cache
+def _recorded(modes: tuple[str, ...]) -> bytes:
+    """The file of a recording, made once a process."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "case.mcap"
+        _record(path, modes)
+        return path.read_bytes()
+
+
+def _record(path: Path, modes: tuple[str, ...]) -> None:
     now_s = BEGIN_S
     config = Config()
     alarms = AlarmService(config, clock=lambda: now_s)
@@ -96,7 +112,6 @@ def write_drilling(path: Path, modes: Sequence[str] = DRILLED) -> Path:
         recording.tick()
     recording.note("STOPPED", "the test ended it")
     recording.close()
-    return path
 
 
 def drawn(number: int) -> tuple[np.ndarray, bytes]:
