@@ -102,6 +102,8 @@ def test_a_browser_that_was_named_wrongly_is_not_replaced_silently(bare_path: Pa
 def test_a_browser_on_the_path_is_found(bare_path: Path) -> None:
     put(bare_path, "chromium", "exit 0")
     assert step("find-chromium", path=bare_path).stdout.strip() == str(bare_path / "chromium")
+    put(bare_path, "chromium-headless-shell", "exit 0")
+    assert step("find-chromium", path=bare_path).stdout.strip() == str(bare_path / "chromium-headless-shell")
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """The real web server over a theatre of two lines: synthetic instants, selected by words on standard input.
 
 live      instants with the marker seen (the initial mode)
+fast      the same at a higher rate
 unseen    instants whose marker is not seen
 lost      the camera is disconnected: no snapshot, and a problem with its remedy
 bare      images of a camera that is not calibrated
@@ -22,6 +23,7 @@ import threading
 import time
 from contextlib import ExitStack
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -36,7 +38,6 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import Instant, LiveHub, Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.logs import LogSettings
-from server.overlay import draw_overlay, encode_jpeg
 from server.procedure.steps import Steps
 from server.store import CaseStore, Home
 from tests.server.texts.drilled_rod import UNSEEN, concluded, seen_at, setup_of
@@ -48,7 +49,7 @@ from tracker.plan import Channel
 from tracker.registration import Registration
 
 SIZE_WH_PX = (1280, 720)
-RATE_HZ = 15.0
+RATE_HZ, FAST_RATE_HZ = 10.0, 15.0
 SIDE_MM = 25.0
 # How long a page that still watches may keep an ending server alive.
 FAREWELL_S = 2
@@ -131,6 +132,14 @@ def snapshot_at(
     )
 
 
+@cache
+def setup_in_bone(*, suffices: bool) -> Setup:
+    """The rod's set-up with its smallest errors, which take longer to compute than an image may take."""
+    # 95 % of 0.9 mm is 2.21 mm, and 1.8 mm are left.
+    rod = setup_of(registered_sd_mm=0.0 if suffices else 0.9)
+    return replace(rod, min_errors_95_mm=min_errors_95_mm(rod, drill_reference()))
+
+
 def snapshot_in_bone(mode: str, number: int, now_s: float) -> NavigationSnapshot:
     """A drill in the rod, whose walls are known."""
     if mode == "wander":
@@ -141,9 +150,7 @@ def snapshot_in_bone(mode: str, number: int, now_s: float) -> NavigationSnapshot
         where = first + share * (second - first)
     else:
         where = np.array(PLACES_IN_BONE.get(mode, PLACES_IN_BONE["path"]))
-    # 95 % of 0.9 mm is 2.21 mm, and 1.8 mm are left.
-    stands = setup_of(registered_sd_mm=0.9 if mode == "insufficient" else 0.0)
-    stands = replace(stands, min_errors_95_mm=min_errors_95_mm(stands, drill_reference()))
+    stands = setup_in_bone(suffices=mode != "insufficient")
     sighting = UNSEEN if mode == "hidden" else seen_at(where, stands.tools["drill"])
     return concluded(stands, drill_reference(), {"drill": sighting}, number=number, captured_at_s=now_s)
 
@@ -164,15 +171,14 @@ def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: 
         snapshot = snapshot_at(
             sequence,
             now_s,
-            seen=mode in ("live", "bare", "deep"),
+            seen=mode in ("live", "fast", "bare", "deep"),
             calibrated=mode != "bare",
             deep=mode == "deep",
         )
     source = SourceStatus(name="/dev/video0", state=SourceState.RUNNING, images=sequence, rate_hz=RATE_HZ)
     picture = alarms.observe(snapshot, source, process)
-    jpeg = encode_jpeg(draw_overlay(ground, snapshot, picture), 80)
     return Instant(
-        sequence=sequence, source=source, process=process, snapshot=snapshot, jpeg=jpeg, alarms=picture
+        sequence=sequence, source=source, process=process, snapshot=snapshot, image=ground, alarms=picture
     )
 
 
@@ -189,8 +195,9 @@ LIMITS = {"pose_stale_after_ms": 700}
 class Feeder(threading.Thread):
     """Publishes instants until the process ends."""
 
-    def __init__(self, hub: LiveHub, alarms: AlarmService) -> None:
+    def __init__(self, hub: LiveHub, alarms: AlarmService, *, rate_hz: float = RATE_HZ) -> None:
         super().__init__(name="feeder", daemon=True)
+        self._rate_hz = rate_hz
         self._hub = hub
         self._alarms = alarms
         self._ended = threading.Event()
@@ -200,7 +207,7 @@ class Feeder(threading.Thread):
         """Publish instants at the rate."""
         ground = backdrop()
         sequence = 0
-        while not self._ended.wait(1.0 / RATE_HZ):
+        while not self._ended.wait(1.0 / (FAST_RATE_HZ if self.mode == "fast" else self._rate_hz)):
             if self.mode != "stop":
                 self._hub.publish(instant_at(sequence, self.mode, ground, self._alarms))
                 sequence += 1

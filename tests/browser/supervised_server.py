@@ -39,6 +39,8 @@ from tracker.registration import Registration
 PATIENT = {"pose_stale_after_ms": 10_000, "video_stale_after_ms": 10_000, "scene_stale_after_ms": 10_000}
 SUPERVISION = {"cosign": {"plan": "required"}, "drawings_fade_after_s": 600}
 RECORDING = {"min_free_gb": 0.0}
+# No test depends on the rate, and each image takes processor time of server and pages.
+RATE_HZ = 4.0
 CONFIG = Config.model_validate({"supervision": SUPERVISION, "limits": PATIENT, "recording": RECORDING})
 
 
@@ -152,7 +154,7 @@ def main() -> None:
         server = uvicorn.Server(uvicorn.Config(app, log_level="error", lifespan="on"))
         serving = threading.Thread(target=server.run, args=([door],), name="web server", daemon=True)
         serving.start()
-        feeder = Feeder(hub, alarms)
+        feeder = Feeder(hub, alarms, rate_hz=RATE_HZ)
         feeder.start()
         sys.stdout.write(f"{door.getsockname()[1]}\n")
         sys.stdout.flush()

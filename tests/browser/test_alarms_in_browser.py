@@ -71,6 +71,8 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
 
 def test_alarms_are_claimed_by_no_page_that_does_not_hear_the_server(theatre: Theatre, watch: Watch) -> None:
     page = watch(theatre, strict=False).open("?lang=de")
+    # Before its first picture a page says instead that the server is not reached.
+    expect(page.get_by_test_id("video")).to_have_attribute("data-live", "true")
     theatre.tell("deep")
     band(page, "high")
     theatre.freeze()

@@ -68,6 +68,13 @@ SLOW = {
 ORDER = ["interval_ms", "scale", "largest"]
 
 
+@pytest.fixture
+def theatre(theatre: Theatre) -> Theatre:
+    """A server with more images per second, because the page judges no fewer than 30 images of 3 s."""
+    theatre.tell("fast")
+    return theatre
+
+
 def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
     """The page after all reductions."""
     watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW[part]} }})()")

@@ -6,10 +6,11 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, ViewportSize, expect
 
+from server.config import Config
 from tests.browser.by_touch.people import invite, left, let_in, printed_link
 from tests.browser.by_touch.planning import moved_and_undone, plan_both_pedicles, with_landmarks, with_lines
 from tests.browser.by_touch.registering import check_on_a_landmark, register_by_points
-from tests.browser.by_touch.setting_up import calibrate_camera, calibrate_tool, open_case, play
+from tests.browser.by_touch.setting_up import board_views, calibrate_camera, calibrate_tool, open_case, play
 from tests.browser.by_touch.tablet import LANDSCAPE, Tablet, tablet_at
 from tests.browser.theatre import SCREENSHOTS, WatchedPage, arm
 from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
@@ -32,7 +33,7 @@ SETTINGS = {
         "rate_hz": 10,
         "skill": "good",
         # On a busy machine a page learns late that the tip rests, and captures late.
-        "rest_s": 5.0,
+        "rest_s": 4.0,
     },
     # A busy machine delivers few images; other tests check how still the tip must be.
     "registration": {
@@ -73,7 +74,7 @@ def test_a_procedure_by_touch_watched_and_supervised(
 ) -> None:
     tablet.page.goto(printed_link(server))
     open_case(tablet, "L3, right")
-    calibrate_camera(tablet)
+    calibrate_camera(tablet, board_views(Config.model_validate(SETTINGS).rehearsal))
     calibrate_tool(tablet)
     assert steps(tablet) == ["done", "done", "missing", "missing", "missing", "missing"]
 

@@ -1,8 +1,15 @@
 """Case, camera and tool by touch, with the rehearsal's board, pivot and spin."""
 
-from playwright.sync_api import expect
+import re
+from collections.abc import Sequence
 
+import cv2
+from playwright.sync_api import FilePayload, expect
+
+from server.config import RehearsalConfig
+from server.theatre import theatre_from_config
 from tests.browser.by_touch.tablet import Tablet
+from tracker.rehearsal.boards import HOLD_S, MOVE_S, PLACES
 
 
 def open_case(tablet: Tablet, name: str) -> None:
@@ -27,16 +34,33 @@ def play(tablet: Tablet, scene: str) -> None:
     )
 
 
-def calibrate_camera(tablet: Tablet) -> None:
-    """Collect views of the board, which are captured automatically, and calibrate."""
+def board_views(rehearsal: RehearsalConfig) -> list[FilePayload]:
+    """Image files of all positions of the board, before the camera of this rehearsal."""
+    renderer = theatre_from_config(rehearsal.model_copy(update={"scene": "board"})).renderer()
+    times_s = [place * (HOLD_S + MOVE_S) + HOLD_S / 2.0 for place in range(len(PLACES))]
+    return [
+        {
+            "name": f"view-{place}.jpg",
+            "mimeType": "image/jpeg",
+            "buffer": cv2.imencode(".jpg", renderer.image_at(at_s))[1].tobytes(),
+        }
+        for place, at_s in enumerate(times_s)
+    ]
+
+
+def calibrate_camera(tablet: Tablet, sent: Sequence[FilePayload]) -> None:
+    """Collect views of the board, some captured automatically and the others sent as files, and calibrate."""
     page = tablet.page
     play(tablet, "board")
     tablet.tap("step-camera")
     tablet.sees("marker-drill")
     tablet.looked_at("camera-board")
     tablet.tap("collect")
-    tablet.reads("views", "5")
+    expect(page.get_by_test_id("views")).to_contain_text(
+        re.compile(r"Views\s*[2-9]"), timeout=tablet.patience_ms
+    )
     tablet.looked_at("camera-collecting")
+    page.get_by_test_id("view-files").set_input_files(sent)
     tablet.finds("missing", "data-enough", "true")
     tablet.tap("calibrate")
     tablet.finds("calibration-rms", "data-within", "true")
