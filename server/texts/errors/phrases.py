@@ -53,6 +53,14 @@ _FAULTS: tuple[Text, ...] = (
     {"en": "a wrong focal length", "de": "eine falsche Brennweite"},
 )
 
+# Sorted by their English names, as an error names them.
+_ROLES: tuple[Text, ...] = (
+    {"en": "operator", "de": "Bedienung"},
+    {"en": "screen", "de": "OP-Bildschirm"},
+    {"en": "supervisor", "de": "Aufsicht"},
+    {"en": "viewer", "de": "Betrachter"},
+)
+
 PHRASES: Mapping[str, tuple[Text, ...]] = {
     "wrong_way": ({"en": "small", "de": "klein"}, {"en": "large", "de": "groß"}),
     "fault_phrase": _FAULTS,
@@ -170,4 +178,34 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "side": _SIDES,
     "other_side": _SIDES,
+    "may": tuple(
+        {"en": " or ".join(one["en"] for one in roles), "de": " oder ".join(one["de"] for one in roles)}
+        for count in range(1, 5)
+        for roles in combinations(_ROLES, count)
+    ),
+    "import_phrase": (
+        _NONE,
+        {
+            "en": " and imported by {importer}",
+            "de": " und von {importer} importiert",
+        },
+    ),
+    "plan_problem": (
+        {
+            "en": "its format is not '{format}'",
+            "de": "ihr Format ist nicht „{format}“",
+        },
+        {
+            "en": "it is nested too deeply",
+            "de": "sie ist zu tief verschachtelt",
+        },
+        {
+            "en": "it is not valid JSON",
+            "de": "sie ist kein gültiges JSON",
+        },
+        {
+            "en": "it is not a JSON object",
+            "de": "sie ist kein JSON-Objekt",
+        },
+    ),
 }
