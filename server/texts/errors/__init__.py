@@ -57,6 +57,18 @@ WORDS: Mapping[str, Mapping[str, Text]] = {
             "de": "koronale",
         },
     },
+    "stored": {
+        "colours": {
+            "en": "colours",
+            "de": "Farben",
+        },
+    },
+    "voxels": {
+        "no": {
+            "en": "no",
+            "de": "keine",
+        },
+    },
     "waits_for": STEPS,
 }
 

@@ -208,4 +208,67 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
             "de": "sie ist kein JSON-Objekt",
         },
     ),
+    "table_hint": (
+        _NONE,
+        {
+            "en": ", but a lookup table",
+            "de": ", sondern eine Umsetzungstabelle",
+        },
+    ),
+    "pixel_count": (
+        _NONE,
+        {
+            "en": " ({pixel_bytes} bytes of pixels)",
+            "de": " ({pixel_bytes} Bytes Pixel)",
+        },
+        {
+            "en": " ({pixel_bytes} bytes of pixels, expected {needed_bytes})",
+            "de": " ({pixel_bytes} Bytes Pixel, erwartet {needed_bytes})",
+        },
+    ),
+    "images_where": (
+        {
+            "en": "the series",
+            "de": "die Serie",
+        },
+        {
+            "en": "the folder",
+            "de": "der Ordner",
+        },
+    ),
+    "identity_kind": (
+        {
+            "en": "patient IDs",
+            "de": "Patienten-IDs",
+        },
+        {
+            "en": "patient names",
+            "de": "Patientennamen",
+        },
+        {
+            "en": "dates of birth",
+            "de": "Geburtsdaten",
+        },
+    ),
+    "voxel_unit_guess": (
+        _NONE,
+        {
+            "en": "; they would be plausible in metres",
+            "de": "; in Metern wären sie plausibel",
+        },
+        {
+            "en": "; they would be plausible in micrometres",
+            "de": "; in Mikrometern wären sie plausibel",
+        },
+    ),
+    "damage": (
+        {
+            "en": "it is missing",
+            "de": "sie fehlt",
+        },
+        {
+            "en": "its SHA-256 differs",
+            "de": "ihr SHA-256 stimmt nicht",
+        },
+    ),
 }
