@@ -69,6 +69,18 @@ WORDS: Mapping[str, Mapping[str, Text]] = {
             "de": "keine",
         },
     },
+    "unit": {
+        "deg": {
+            "en": "deg",
+            "de": "Grad",
+        },
+    },
+    "triggers": {
+        "none": {
+            "en": "none",
+            "de": "keiner",
+        },
+    },
     "waits_for": STEPS,
 }
 

@@ -271,4 +271,73 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
             "de": "ihr SHA-256 stimmt nicht",
         },
     ),
+    "image_range": (
+        {
+            "en": "has images from 0 to {last_s:.1f} s",
+            "de": "hat Bilder von 0 bis {last_s:.1f} s",
+        },
+        {
+            "en": "has no image",
+            "de": "hat kein Bild",
+        },
+    ),
+    "write_problem": (
+        {
+            "en": "the disk is full",
+            "de": "die Platte ist voll",
+        },
+        {
+            "en": "{system_error}",
+            "de": "{system_error}",
+        },
+    ),
+    "read_problem": (
+        {
+            "en": "it is not an MCAP file",
+            "de": "sie ist keine MCAP-Datei",
+        },
+        {
+            "en": "it is not a recording of Coaxial",
+            "de": "sie ist keine Aufnahme von Coaxial",
+        },
+        {
+            "en": "{system_error}",
+            "de": "{system_error}",
+        },
+    ),
+    "incomplete_reason": (
+        {
+            "en": "a checksum is wrong",
+            "de": "eine Prüfsumme stimmt nicht",
+        },
+        {
+            "en": "it ends inside a chunk",
+            "de": "sie endet mitten in einem Abschnitt",
+        },
+        {
+            "en": "its end record is missing",
+            "de": "ihr Endeintrag fehlt",
+        },
+    ),
+    "focus_phrase": (
+        {
+            "en": "is automatic",
+            "de": "ist automatisch",
+        },
+        {
+            "en": "cannot be locked or read in its browser",
+            "de": "lässt sich in seinem Browser weder feststellen noch auslesen",
+        },
+    ),
+    "skip_phrase": (
+        {
+            "en": "{skipped_images} of {images} images were not shown on this page",
+            "de": "{skipped_images} von {images} Bildern wurden auf dieser Seite nicht gezeigt",
+        },
+        {
+            "en": "{unprocessed_images} of {shown_images} images on this page were not searched for a code",
+            "de": "in {unprocessed_images} von {shown_images} Bildern auf dieser Seite wurde kein Code "
+            "gesucht",
+        },
+    ),
 }
