@@ -132,7 +132,7 @@ def reject_other_camera(file: CameraFile, *, path: Path, name: str, source: obje
                 f"{path} was calibrated for the camera whose {key} is '{stated}', "
                 f"but camera.{key} is '{here}'",
                 "Calibrate this camera, or give its own camera file.",
-                {"file": str(path), "calibrated": stated, "camera": str(here)},
+                {"file": str(path), "calibrated": stated, "camera": str(here), "key": key},
             )
 
 

@@ -30,7 +30,7 @@ def load_marker_image(path: Path) -> npt.NDArray[np.uint8]:
             "MARKER_IMAGE_UNREADABLE",
             f"the marker picture {path} cannot be read: {error.strerror}",
             REMEDY,
-            {"file": str(path)},
+            {"file": str(path), "system_error": error.strerror},
         ) from error
     return marker_image(content, named=str(path))
 
@@ -50,7 +50,7 @@ def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
             f"the marker picture {named} is {width}x{height} px, the minimum is "
             f"{SMALLEST_SIDE_PX} px per side",
             REMEDY,
-            context,
+            {**context, "min_px": SMALLEST_SIDE_PX},
         )
     if abs(width - height) > SQUARE_TOLERANCE_RATIO * max(width, height):
         raise InvalidInput(
@@ -58,7 +58,7 @@ def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
             f"the marker picture {named} is {width}x{height} px, its sides may differ by "
             f"at most {SQUARE_TOLERANCE_RATIO:.0%}",
             REMEDY,
-            context,
+            {**context, "tolerance_ratio": SQUARE_TOLERANCE_RATIO},
         )
     contrast = int(image.max()) - int(image.min())
     if contrast < MIN_CONTRAST_GREY:
@@ -67,7 +67,7 @@ def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
             f"the marker picture {named} spans {contrast} of 255 grey levels, the minimum is "
             f"{MIN_CONTRAST_GREY}",
             REMEDY,
-            {**context, "contrast_grey": contrast},
+            {**context, "contrast_grey": contrast, "min_contrast_grey": MIN_CONTRAST_GREY},
         )
     return image
 

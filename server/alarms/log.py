@@ -187,7 +187,12 @@ class StoredAlarmLog:
             problem = error
         except Exception as error:
             # This thread must not end, because later alarms would be lost silently.
-            problem = StoreError("ALARM_NOT_LOGGED", f"the alarm log failed: {error}", "See the server log.")
+            problem = StoreError(
+                "ALARM_NOT_LOGGED",
+                f"the alarm log failed: {error}",
+                "See the server log.",
+                {"cause": str(error)},
+            )
             log.exception("the alarm log cannot be written")
         if problem is not None and self._problem is None:
             log.error(problem.message, code=problem.code, remedy=problem.remedy)

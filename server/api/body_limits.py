@@ -15,6 +15,7 @@ from tracker.errors import NavigationError
 SIGN_IN: Final = "/api/session"
 MAX_TO_SIGN_IN_BYTES, MAX_BYTES = 16 * 2**10, 4 * 2**20
 SIGN_IN_WITHIN_S = 20.0
+FASTER = "Send it again over a faster connection."
 # 13 kbit/s: a slower client blocks a connection.
 PIECE_BYTES, PIECE_WITHIN_S = 32 * 2**10, 20.0
 UPLOADS = frozenset(
@@ -101,15 +102,29 @@ class ReceiveTimeout:
 
     def rejection(self, taken_bytes: int) -> BodyTooSlow:
         """Return the error for an expired timeout."""
-        message = f"the request was not complete after {self.limit_s:g} s"
-        if self.piece_bytes is not None:
-            taken, last = taken_bytes / 1024, self.received_bytes / 1024
-            message = (
-                f"{taken:.1f} kB of the request arrived, the last {last:.1f} kB in {self.limit_s:g} s; "
-                f"the minimum is {self.piece_bytes / 1024:g} kB in this time"
+        if self.piece_bytes is None:
+            return BodyTooSlow(
+                "BODY_TOO_SLOW",
+                f"the request was not complete after {self.limit_s:g} s",
+                FASTER,
+                {"allowed_s": self.limit_s, "taken_bytes": taken_bytes},
             )
-        context: dict[str, object] = {"allowed_s": self.limit_s, "taken_bytes": taken_bytes}
-        return BodyTooSlow("BODY_TOO_SLOW", message, "Send it again over a faster connection.", context)
+        taken_kb, last_kb, min_kb = (
+            size / 1024 for size in (taken_bytes, self.received_bytes, self.piece_bytes)
+        )
+        return BodyTooSlow(
+            "BODY_TOO_SLOW",
+            f"{taken_kb:.1f} kB of the request arrived, the last {last_kb:.1f} kB in {self.limit_s:g} s; "
+            f"the minimum is {min_kb:g} kB in this time",
+            FASTER,
+            {
+                "allowed_s": self.limit_s,
+                "taken_bytes": taken_bytes,
+                "taken_kb": taken_kb,
+                "last_kb": last_kb,
+                "min_kb": min_kb,
+            },
+        )
 
 
 class _Body:

@@ -56,11 +56,12 @@ def window_from_query(window: float | None, level: float | None, preset: str | N
     """
     name = (preset or "bone").replace("-", " ").lower()
     if name not in WINDOWS:
+        available = ", ".join(WINDOWS)
         raise InvalidInput(
             "PRESET_UNKNOWN",
-            f"there is no preset '{name[:40]}', available are {', '.join(WINDOWS)}",
+            f"there is no preset '{name[:40]}', available are {available}",
             "Use one of them, or give window and level in HU.",
-            {"preset": name[:40], "presets": list(WINDOWS)},
+            {"preset": name[:40], "presets": list(WINDOWS), "available": available},
         )
     chosen = WINDOWS[name]
     return Window(
@@ -84,7 +85,7 @@ def point_from_query(text: str, *, name: str) -> Array:
             "POINT_INVALID",
             f"{name} is '{text[:60]}', expected three numbers within 10000 mm",
             f"Give {name}=x,y,z in mm of LPS.",
-            {name: text[:60]},
+            {"name": name, "given": text[:60]},
         )
     return point
 

@@ -280,5 +280,5 @@ def _focus_not_locked(camera: PhoneCamera) -> CaptureError:
         "and the change may go unnoticed",
         "Keep the distance from the phone to the field as during the calibration, and check on a landmark "
         "often. Chrome on Android can lock the focus of most phones.",
-        {"focus": camera.focus.value},
+        {"focus": camera.focus.value, "focus_phrase": how},
     )

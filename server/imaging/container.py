@@ -225,5 +225,8 @@ def _leaves(name: str) -> bool:
 
 def _unreadable(error: OSError) -> InvalidInput:
     return InvalidInput(
-        "CT_UNREADABLE", f"the file or folder cannot be read: {error.strerror}", "Check its read permission."
+        "CT_UNREADABLE",
+        f"the file or folder cannot be read: {error.strerror}",
+        "Check its read permission.",
+        {"system_error": error.strerror},
     )

@@ -64,11 +64,12 @@ def mesh_from_bytes(
     _reject_large(len(content))
     file_format = file_format.lower()
     if file_format not in FORMATS:
+        formats = ", ".join(FORMATS)
         raise InvalidInput(
             "MESH_FORMAT_UNKNOWN",
-            f"the mesh format '{file_format}' is not supported, supported are {', '.join(FORMATS)}",
+            f"the mesh format '{file_format}' is not supported, supported are {formats}",
             EXPORT_TRIANGLES,
-            {"allowed": list(FORMATS)},
+            {"allowed": list(FORMATS), "format": file_format, "formats": formats},
         )
     space_match = SPACE.search(content[:WHERE_SPACE_IS])
     stated = None if space_match is None else Space(space_match[1].decode().upper())

@@ -219,7 +219,14 @@ def _count_skipped(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) -
         "LATENCY_IMAGES_SKIPPED",
         f"{what}, the maximum is {allowed}",
         "Close other pages, select a smaller picture or lower camera.rate_hz, and measure again.",
-        {"skipped_images": skipped, "unprocessed_images": unlooked, "images": given, "max_images": allowed},
+        {
+            "skip_phrase": what,
+            "skipped_images": skipped,
+            "unprocessed_images": unlooked,
+            "shown_images": len(numbers),
+            "images": given,
+            "max_images": allowed,
+        },
     )
 
 

@@ -120,11 +120,12 @@ class ToolStep(CollectingStep[ToolCollection]):
             marker or (record.marker if record else None) or self._marker_in_settings(tool, sorted(known))
         )
         if marker not in known:
+            markers = ", ".join(sorted(known)) or "none"
             raise InvalidInput(
                 "MARKER_UNKNOWN",
                 f"the marker '{marker}' is not tracked",
-                f"Tracked markers: {', '.join(sorted(known)) or 'none'}. Upload it on the camera's page.",
-                {"marker": marker},
+                f"Tracked markers: {markers}. Upload it on the camera's page.",
+                {"marker": marker, "markers": markers},
             )
         if purpose is not Purpose.PIVOT and record is None:
             raise CalibrationError(
@@ -283,11 +284,12 @@ class ToolStep(CollectingStep[ToolCollection]):
             return self._tools[tool].marker
         if len(known) == 1:
             return known[0]
+        markers = ", ".join(known) or "none"
         raise InvalidInput(
             "TOOL_MARKER_UNKNOWN",
             f"the marker of the tool '{tool}' is not specified",
-            f"Give its name. Available markers: {', '.join(known) or 'none'}.",
-            {"tool": tool},
+            f"Give its name. Available markers: {markers}.",
+            {"tool": tool, "markers": markers},
         )
 
 

@@ -100,11 +100,12 @@ class ToolCollection:
                 "Calibrate the camera first, or set camera.calibration to its file.",
             )
         if self.marker not in snapshot.sightings:
+            markers = ", ".join(sorted(snapshot.sightings)) or "none"
             raise InvalidInput(
                 "MARKER_UNKNOWN",
                 f"the marker '{self.marker}' is not tracked",
-                f"Tracked markers: {', '.join(sorted(snapshot.sightings)) or 'none'}. Add it under markers.",
-                {"marker": self.marker},
+                f"Tracked markers: {markers}. Add it under markers.",
+                {"marker": self.marker, "markers": markers},
             )
         with self._lock:
             self._newest = self._collector.take(snapshot.sightings[self.marker], at_s=snapshot.captured_at_s)

@@ -90,6 +90,7 @@ def cut_recording(
                     "RECORDING_DAMAGED",
                     f"{recording.name} cannot be read up to {to_s:.1f} s: {reader.incomplete_reason}",
                     "Choose a part before the damage, or take the recording from another copy.",
+                    {"name": recording.name, "to_s": to_s, "incomplete_reason": reader.incomplete_reason},
                 )
             piece.end(recording.name, first_s=first_s, from_s=from_s, to_s=to_s)
     except OSError as error:
@@ -98,6 +99,7 @@ def cut_recording(
             "CUT_NOT_WRITTEN",
             f"{target.name} cannot be written: {what}",
             "Check that its folder exists and its disk has free space, then try again.",
+            {"name": target.name, "write_problem": what, "system_error": what},
         ) from error
     finally:
         reader.close()
@@ -133,7 +135,13 @@ def _begin(recording: Path, from_s: float, to_s: float) -> tuple[float, _Begin]:
             "CUT_EMPTY",
             f"there is no image from {from_s:.1f} to {to_s:.1f} s; {recording.name} {has}",
             "Give a period with images, and a start before its end.",
-            {"from_s": from_s, "to_s": to_s},
+            {
+                "from_s": from_s,
+                "to_s": to_s,
+                "last_s": last_s - first_s,
+                "name": recording.name,
+                "image_range": has,
+            },
         )
     start = image if state is None else state
     return first_s, _Begin(number=start.sequence, unix_s=start.unix_s, has_state=state is not None)

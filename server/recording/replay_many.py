@@ -304,10 +304,11 @@ def _sha256(path: Path) -> str:
             while part := file.read(READ_BYTES):
                 digest.update(part)
     except OSError as error:
+        why = (error.strerror or str(error)).lower()
         raise RecordingError(
             "RECORDING_NOT_READABLE",
-            f"{path.name} cannot be read as a recording: {(error.strerror or str(error)).lower()}",
+            f"{path.name} cannot be read as a recording: {why}",
             "Give a recording of Coaxial (.mcap).",
-            {"name": path.name},
+            {"file": path.name, "read_problem": why, "system_error": why},
         ) from error
     return digest.hexdigest()

@@ -322,10 +322,12 @@ def _fitted(image: Image, size_wh_px: tuple[int, int]) -> Image:
 
 
 def _not_written(target: Path, error: OSError) -> RecordingError:
+    what = (error.strerror or str(error)).lower()
     return RecordingError(
         "VIDEO_NOT_WRITTEN",
-        f"the video {target.name} cannot be written: {(error.strerror or str(error)).lower()}",
+        f"the video {target.name} cannot be written: {what}",
         "Check that its folder exists and its disk has free space, then export again.",
+        {"name": target.name, "system_error": what},
     )
 
 

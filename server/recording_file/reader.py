@@ -161,5 +161,5 @@ def _not_readable(path: Path, why: str) -> RecordingError:
         "RECORDING_NOT_READABLE",
         f"{path} cannot be read as a recording: {why}",
         "Give a recording of Coaxial (.mcap).",
-        {"file": str(path)},
+        {"file": str(path), "read_problem": why, "system_error": why},
     )

@@ -279,13 +279,13 @@ class _SyncThread:
 
 def _not_written(path: Path, error: OSError) -> RecordingError:
     what = "the disk is full" if is_full(error) else (error.strerror or str(error)).lower()
-    free: dict[str, object] = {}
+    context: dict[str, object] = {"name": path.name, "write_problem": what, "system_error": what}
     with suppress(OSError):
-        free = {"free_bytes": shutil.disk_usage(path.parent).free}
+        context["free_bytes"] = shutil.disk_usage(path.parent).free
     return RecordingError(
         "RECORDING_NOT_WRITTEN",
         f"the recording {path.name} cannot be written: {what}",
         "Check the disk of the cases, then start the recording again. Navigation continues, and the part "
         "written so far is readable.",
-        free,
+        context,
     )

@@ -158,7 +158,7 @@ def file_damaged(file: StoredFile, why: str) -> StoreError:
         "FILE_DAMAGED",
         f"the file {file.id} of the case {file.case_id} is damaged: {why}",
         "Restore the file from a copy; steps that need it are not possible until then.",
-        {"case_id": file.case_id, "file_id": file.id},
+        {"case_id": file.case_id, "file_id": file.id, "damage": why},
     )
 
 

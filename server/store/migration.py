@@ -50,7 +50,12 @@ def _reject_unknown(scripts: ScriptDirectory, revision: str, home: Home) -> None
             f"the database in {home.folder} has schema {revision}, this program supports schemas "
             f"{scripts.get_base()} to {scripts.get_current_head()}",
             "Start the version of Coaxial that made it, or set COAXIAL_HOME to another folder.",
-            {"found": revision, "first": scripts.get_base(), "newest": scripts.get_current_head()},
+            {
+                "folder": str(home.folder),
+                "found": revision,
+                "first": scripts.get_base(),
+                "newest": scripts.get_current_head(),
+            },
         ) from error
 
 

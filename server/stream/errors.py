@@ -9,14 +9,20 @@ class TooManyViewers(NavigationError):
     """The maximum number of viewers, or of connections of one person, is reached."""
 
     def __init__(self, watching: int, maximum: int, name: str | None = None) -> None:
-        message = f"{watching} viewers are connected, the maximum is {maximum}"
-        remedy = "Close an unused view, or raise video.max_viewers in the settings."
-        if name is not None:
-            message = f"{name} has {watching} open connections, the maximum per person is {maximum}"
-            remedy = "Close an unused page."
-        super().__init__(
-            "TOO_MANY_VIEWERS", message, remedy, {"watching": watching, "most": maximum, "name": name}
-        )
+        if name is None:
+            super().__init__(
+                "TOO_MANY_VIEWERS",
+                f"{watching} viewers are connected, the maximum is {maximum}",
+                "Close an unused view, or raise video.max_viewers in the settings.",
+                {"watching": watching, "most": maximum, "name": None},
+            )
+        else:
+            super().__init__(
+                "TOO_MANY_VIEWERS",
+                f"{name} has {watching} open connections, the maximum per person is {maximum}",
+                "Close an unused page.",
+                {"watching": watching, "most": maximum, "name": name},
+            )
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle by the constructor's arguments."""
@@ -31,7 +37,7 @@ class CameraUnknown(NavigationError):
             "CAMERA_UNKNOWN",
             f"there is no camera '{requested[:80]}', only {', '.join(known)}",
             "Use one of these cameras, or configure another one in the settings.",
-            {"requested": requested[:80], "known": list(known)},
+            {"requested": requested[:80], "known": list(known), "cameras": ", ".join(known)},
         )
 
     def __reduce__(self) -> tuple[object, ...]:

@@ -211,7 +211,13 @@ class SignatureService:
                 "SIGNED_BY_MAKER",
                 f"{document.title} was made by {document.maker}{taken_in}, and its author cannot co-sign it",
                 "Have another person review and sign it.",
-                {"made_by": list(document.makers)},
+                {
+                    "made_by": list(document.makers),
+                    "title": document.title_text,
+                    "maker": document.maker,
+                    "import_phrase": taken_in,
+                    "importer": None if document.imported is None else document.imported.by,
+                },
             )
 
     def _newest(self, what: CosignTarget, case_id: str) -> Document | None:

@@ -164,22 +164,38 @@ def _check_gaps(gaps: Array) -> None:
     if np.abs(steps - 1.0).max() <= 2.0 * MAX_JITTER_RATIO:
         return
     first = int(np.argmax(np.abs(steps - 1.0) > 2.0 * MAX_JITTER_RATIO))
-    where = f"after slice {first + 1} of {len(gaps) + 1}, in the order of their positions, the next is"
+    gap_mm, slices = float(gaps[first]), len(gaps) + 1
     missing = int((np.rint(steps) - 1.0).sum())
     if missing > 0 and np.abs(steps - np.rint(steps)).max() <= 2.0 * MAX_JITTER_RATIO:
         raise InvalidInput(
             "CT_SLICES_MISSING",
-            f"{missing} of {len(gaps) + 1 + missing} slices are missing: {where} {gaps[first]:.3f} mm away, "
-            f"the others lie {usual:.3f} mm apart",
+            f"{missing} of {slices + missing} slices are missing: after slice {first + 1} of {slices}, in "
+            f"the order of their positions, the next is {gap_mm:.3f} mm away, the others lie {usual:.3f} mm "
+            "apart",
             EXPORT_AGAIN,
-            {"missing": missing, "gap_mm": float(gaps[first]), "spacing_mm": usual},
+            {
+                "missing": missing,
+                "needed": slices + missing,
+                "after": first + 1,
+                "slices": slices,
+                "gap_mm": gap_mm,
+                "spacing_mm": usual,
+            },
         )
     raise InvalidInput(
         "CT_SPACING_UNEVEN",
         f"the slices lie between {gaps.min():.3f} and {gaps.max():.3f} mm apart, mostly {usual:.3f} mm: "
-        f"{where} {gaps[first]:.3f} mm away",
+        f"after slice {first + 1} of {slices}, in the order of their positions, the next is {gap_mm:.3f} mm "
+        "away",
         EXPORT_AGAIN,
-        {"min_mm": float(gaps.min()), "max_mm": float(gaps.max()), "spacing_mm": usual},
+        {
+            "min_mm": float(gaps.min()),
+            "max_mm": float(gaps.max()),
+            "spacing_mm": usual,
+            "after": first + 1,
+            "slices": slices,
+            "gap_mm": gap_mm,
+        },
     )
 
 

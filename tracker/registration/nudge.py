@@ -54,12 +54,12 @@ class Nudge:
         steps = STEPS_MM if self.kind is NudgeKind.SHIFT else STEPS_DEG
         if not any(abs(abs(self.amount) - step) < ROUNDING for step in steps):
             unit = "mm" if self.kind is NudgeKind.SHIFT else "deg"
+            allowed = ", ".join(f"{step:g}" for step in steps)
             raise RegistrationError(
                 "NUDGE_STEP_INVALID",
-                f"a nudge of {self.amount:g} {unit} is not allowed; the steps are "
-                f"{', '.join(f'{step:g}' for step in steps)} {unit}",
+                f"a nudge of {self.amount:g} {unit} is not allowed; the steps are {allowed} {unit}",
                 "Nudge in small steps, and register again where many would be needed.",
-                {"amount": self.amount, "allowed": list(steps)},
+                {"amount": self.amount, "unit": unit, "allowed": list(steps), "steps": allowed},
             )
 
 

@@ -132,11 +132,12 @@ def set_trigger(features: Features, name: str, trigger: str | None) -> str:
     sources = features.options("TriggerSource")
     source = next((one for one in sources if one.lower() == trigger.lower()), None)
     if source is None:
+        triggers = ", ".join(sources) or "none"
         raise CaptureError(
             "CAMERA_TRIGGER_NOT_OFFERED",
             f"{name} has no trigger '{trigger}'",
-            f"Set camera.trigger to an available trigger ({', '.join(sources) or 'none'}), or to null.",
-            {"camera": name, "trigger": trigger, "offered": list(sources)},
+            f"Set camera.trigger to an available trigger ({triggers}), or to null.",
+            {"camera": name, "trigger": trigger, "offered": list(sources), "triggers": triggers},
         )
     _try(features, "TriggerSelector", "FrameStart")
     features.set_value("TriggerSource", source)

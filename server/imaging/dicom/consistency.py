@@ -1,13 +1,12 @@
 """Consistency checks of the slices of a series, and warnings for the planning."""
 
 from collections import Counter
-from collections.abc import Hashable, Iterable
 
 import numpy as np
 
 from server.imaging.dicom.frame import Frame
 from server.imaging.dicom.pixels import check_readable
-from server.imaging.dicom.series import check_one_patient
+from server.imaging.dicom.series import check_one_patient, in_words
 from server.imaging.voxels import MAX_HU, MIN_HU, check_voxels
 from tracker.errors import InvalidInput
 from tracker.plan.stack import EXPORT_AGAIN, MAX_JITTER_MM, Stack
@@ -47,13 +46,13 @@ def _check_geometry(frames: list[Frame]) -> None:
                 "Export the series again with its geometry; pictures of slices are not usable for planning.",
                 {"slices": sum(missing), "of": len(frames), "attribute": attribute},
             )
-    sizes = _counted(f"{frame.shared.size_wh_px[0]} x {frame.shared.size_wh_px[1]}" for frame in frames)
+    sizes = Counter(f"{frame.shared.size_wh_px[0]} x {frame.shared.size_wh_px[1]}" for frame in frames)
     if len(sizes) > 1:
         raise InvalidInput(
             "CT_SIZES_DIFFER",
-            f"the slices have different sizes: {_in_words(sizes)} pixels",
+            f"the slices have different sizes in pixels: {in_words(sizes)}",
             EXPORT_AGAIN,
-            {"sizes": {str(size): count for size, count in sizes.items()}},
+            {"sizes": {str(size): count for size, count in sizes.items()}, "counted": in_words(sizes)},
         )
     columns, rows = frames[0].shared.size_wh_px
     spacings = np.array([frame.pixel_mm for frame in frames])
@@ -100,31 +99,24 @@ def _check_values(frames: list[Frame]) -> None:
         for frame in frames
     )
     if unscaled:
-        tables = sum(frame.shared.has_table for frame in frames)
+        has_table = any(frame.shared.has_table for frame in frames)
+        table_hint = ", but a lookup table" if has_table else ""
         raise InvalidInput(
             "CT_RESCALE_MISSING",
             f"{unscaled} of {len(frames)} slices do not state their conversion to Hounsfield units "
-            f"(Rescale Slope and Intercept){', but a lookup table' if tables else ''}",
+            f"(Rescale Slope and Intercept){table_hint}",
             "Export the original CT series again.",
-            {"slices": unscaled, "of": len(frames)},
+            {"slices": unscaled, "of": len(frames), "table_hint": table_hint},
         )
-    kinds = _counted(frame.rescale_type for frame in frames if frame.rescale_type not in IS_HU)
+    kinds = Counter(frame.rescale_type for frame in frames if frame.rescale_type not in IS_HU)
     if kinds:
         raise InvalidInput(
             "CT_NOT_HU",
             f"the values of {sum(kinds.values())} of {len(frames)} slices are not Hounsfield units, but "
-            f"{_in_words(kinds)}",
+            f"{in_words(kinds)}",
             "Export the CT series in Hounsfield units (not iodine, density or effective atomic number).",
-            {"slices": sum(kinds.values()), "of": len(frames)},
+            {"slices": sum(kinds.values()), "of": len(frames), "counted": in_words(kinds)},
         )
-
-
-def _counted(several: Iterable[Hashable]) -> Counter[Hashable]:
-    return Counter(several)
-
-
-def _in_words(counts: Counter[Hashable]) -> str:
-    return ", ".join(f"{count} of {thing}" for thing, count in counts.most_common(4))
 
 
 def series_warnings(frames: list[Frame], stack: Stack, beyond: int) -> list[str]:

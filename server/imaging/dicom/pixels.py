@@ -170,11 +170,18 @@ def _damaged(shared: FileAttributes) -> InvalidInput:
 
 def _truncated(shared: FileAttributes, found: int = 0, needed: int = 0) -> InvalidInput:
     columns, rows = shared.size_wh_px
-    numbers = f" ({found} bytes of pixels" + (f", expected {needed})" if needed else ")") if found else ""
+    pixel_count = f" ({found} bytes of pixels" + (f", expected {needed})" if needed else ")") if found else ""
     return InvalidInput(
         "CT_SLICE_TRUNCATED",
         f"a slice is truncated: its file of {shared.entry.size} bytes lacks a part of the declared "
-        f"{columns} x {rows} pixels{numbers}",
+        f"{columns} x {rows} pixels{pixel_count}",
         SEND_AGAIN,
-        {"bytes": shared.entry.size, "columns": columns, "rows": rows, "pixel_bytes": found},
+        {
+            "bytes": shared.entry.size,
+            "columns": columns,
+            "rows": rows,
+            "pixel_count": pixel_count,
+            "pixel_bytes": found,
+            "needed_bytes": needed,
+        },
     )

@@ -82,7 +82,12 @@ def check_one_patient(frames: list[Frame], *, what: str) -> None:
                 "CT_PATIENTS_MIXED",
                 f"{what} contains images with {len(different)} different {kind_of_value}, expected 1",
                 GIVE_ONE,
-                {"patients": len(different), "images": len(frames)},
+                {
+                    "images_where": what,
+                    "identity_kind": kind_of_value,
+                    "patients": len(different),
+                    "images": len(frames),
+                },
             )
 
 
@@ -147,11 +152,12 @@ def choose(series: dict[str, list[Frame]], requested: str | None) -> list[Frame]
     """
     if requested is not None:
         if requested not in series:
+            identifiers = ", ".join(sorted(series))
             raise InvalidInput(
                 "CT_SERIES_UNKNOWN",
                 f"none of the {len(series)} series has this identifier",
-                f"Give the identifier of one of them: {', '.join(sorted(series))}.",
-                {"series": sorted(series)},
+                f"Give the identifier of one of them: {identifiers}.",
+                {"series": sorted(series), "count": len(series), "identifiers": identifiers},
             )
         _check_modality(series[requested])
         return series[requested]
@@ -168,25 +174,28 @@ def choose(series: dict[str, list[Frame]], requested: str | None) -> list[Frame]
             "Export the whole series again.",
             {"slices": len(only)},
         )
+    usable = {one.series: one.words for one in describe(series) if not one.problem}
+    slices, identifiers = ", ".join(str(len(frames)) for frames in found), ", ".join(usable)
     raise InvalidInput(
         "CT_SERIES_UNCLEAR",
-        f"there are {len(found)} CT series, of {', '.join(str(len(frames)) for frames in found)} slices",
-        "Select the series for planning: "
-        + ", ".join(one.series for one in describe(series) if not one.problem)
-        + ".",
-        {"series": {one.series: one.words for one in describe(series) if not one.problem}},
+        f"there are {len(found)} CT series, of {slices} slices",
+        f"Select the series for planning: {identifiers}.",
+        {"series": usable, "count": len(found), "slices": slices, "identifiers": identifiers},
     )
 
 
 def _check_modality(frames: list[Frame]) -> None:
     kinds = Counter(frame.shared.modality for frame in frames)
     if set(kinds) != {"CT"}:
-        kind_of_value = ", ".join(
-            f"{count} of {kind or 'unknown kind'}" for kind, count in kinds.most_common()
-        )
+        counted = in_words(Counter(kind or "?" for kind in kinds.elements()))
         raise InvalidInput(
             "CT_NOT_CT",
-            f"the images are not a CT: {kind_of_value}",
+            f"the images are not a CT: {counted}",
             "Give a CT; MR, PET and others have no Hounsfield units.",
-            {"modalities": dict(kinds)},
+            {"modalities": dict(kinds), "counted": counted},
         )
+
+
+def in_words(counts: Counter[str]) -> str:
+    """Return the most frequent values with their counts, such as `512 x 512 (120), 256 x 256 (1)`."""
+    return ", ".join(f"{value} ({count})" for value, count in counts.most_common(4))

@@ -103,18 +103,21 @@ def _compared(sform: Array, qform: Array, shape_ijk: tuple[int, ...]) -> list[st
     """Return warnings about two affines of a file; they may differ in position, not in size or mirroring."""
     sizes = [np.linalg.norm(affine[:3, :3], axis=0) for affine in (sform, qform)]
     mirrored = _determinant(sform) * _determinant(qform) < 0.0
-    if mirrored or np.abs(sizes[0] / sizes[1] - 1.0).max() > 0.005:
+    context: dict[str, object] = {"sform_mm": sizes[0].tolist(), "qform_mm": sizes[1].tolist()}
+    if mirrored:
         raise InvalidInput(
             "CT_AFFINES_CONTRADICT",
-            "the NIfTI's sform and qform contradict each other: "
-            + ("one is the mirror image of the other" if mirrored else "voxels of ")
-            + (
-                ""
-                if mirrored
-                else " and ".join("x".join(f"{mm:.3f}" for mm in size) for size in sizes) + " mm"
-            ),
+            "the NIfTI's sform and qform contradict each other: one is the mirror image of the other",
             CONVERT,
-            {"sform_mm": sizes[0].tolist(), "qform_mm": sizes[1].tolist()},
+            context,
+        )
+    if np.abs(sizes[0] / sizes[1] - 1.0).max() > 0.005:
+        sform_size, qform_size = ("x".join(f"{mm:.3f}" for mm in size) for size in sizes)
+        raise InvalidInput(
+            "CT_AFFINES_CONTRADICT",
+            f"the NIfTI's sform and qform contradict each other: voxels of {sform_size} and {qform_size} mm",
+            CONVERT,
+            {**context, "sform_size": sform_size, "qform_size": qform_size},
         )
     corners = np.array(np.meshgrid(*[[0.0, size - 1.0] for size in shape_ijk], [1.0])).reshape(4, -1)
     difference_mm = float(np.linalg.norm(((sform - qform) @ corners)[:3], axis=0).max())
@@ -137,5 +140,12 @@ def _check_size(affine: Array, unit: str) -> None:
         f"the voxels have {size_text} mm (unit in the file: {unit}), allowed: {MIN_VOXEL_MM} to "
         f"{MAX_VOXEL_MM:.0f} mm{guess}",
         CONVERT,
-        {"voxel_mm": sizes.tolist(), "unit": unit},
+        {
+            "voxel_mm": sizes.tolist(),
+            "size": size_text,
+            "unit": unit,
+            "min_mm": MIN_VOXEL_MM,
+            "max_mm": MAX_VOXEL_MM,
+            "voxel_unit_guess": guess,
+        },
     )

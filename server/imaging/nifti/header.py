@@ -120,12 +120,12 @@ def read_nifti_header(entry: Entry) -> NiftiHeader:
 
 def _check_shape(shape: tuple[int, ...]) -> None:
     if len(shape) < 3 or any(size != 1 for size in shape[3:]) or min(shape[:3]) < 2:
+        voxels = " x ".join(str(size) for size in shape) or "no"
         raise InvalidInput(
             "CT_NOT_ONE_VOLUME",
-            f"the NIfTI has {' x '.join(str(size) for size in shape) or 'no'} voxels, expected one volume of "
-            "three axes with at least 2 each",
+            f"the NIfTI has {voxels} voxels, expected one volume of three axes with at least 2 each",
             "Export one volume of the CT; a time series contains several.",
-            {"shape": list(shape)},
+            {"shape": list(shape), "voxels": voxels},
         )
     check_voxels((shape[2], shape[1], shape[0]))
 

@@ -60,6 +60,7 @@ def import_plan(content: bytes, ct: MappedCt, *, is_for_other_ct: bool = False) 
             f"the file has format version {repr(mapped.get('format_version'))[:20]}, but this program reads "
             f"version {FORMAT_VERSION}",
             "Export the plan with a program of the same version.",
+            {"found": repr(mapped.get("format_version"))[:20], "known": FORMAT_VERSION},
         )
     if not is_for_other_ct and not _is_same(mapped.get("ct"), ct):
         raise InvalidInput(
@@ -105,4 +106,9 @@ def _no_number(word: str) -> NoReturn:
 
 
 def _invalid(why: str) -> InvalidInput:
-    return InvalidInput("PLAN_FILE_INVALID", f"the file is not a plan: {why}", AGAIN)
+    return InvalidInput(
+        "PLAN_FILE_INVALID",
+        f"the file is not a plan: {why}",
+        AGAIN,
+        {"plan_problem": why, "format": FORMAT},
+    )

@@ -140,11 +140,12 @@ class NeedleStep:
             RegistrationError: as `register_needles`.
         """
         if len(marked) != len(scene.places):
+            needles = ", ".join(place.name for place in scene.places)
             raise InvalidInput(
                 "NEEDLES_UNPAIRED",
                 f"{len(marked)} needles are marked, but {len(scene.places)} are planned",
-                f"Mark one needle each for {', '.join(place.name for place in scene.places)}, in this order.",
-                {"marked": len(marked), "planned": len(scene.places)},
+                f"Mark one needle each for {needles}, in this order.",
+                {"marked": len(marked), "planned": len(scene.places), "needles": needles},
             )
         seen = refine_marked(scene.image, scene.camera, marked)
         at_px = np.mean([one.entry_px for one in seen], axis=0)

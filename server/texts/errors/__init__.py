@@ -24,6 +24,63 @@ WORDS: Mapping[str, Mapping[str, Text]] = {
     "method": METHODS,
     "step": STEPS,
     "tools": _NONE,
+    "role": {
+        "operator": {
+            "en": "operator",
+            "de": "Bedienung",
+        },
+        "supervisor": {
+            "en": "supervisor",
+            "de": "Aufsicht",
+        },
+        "viewer": {
+            "en": "viewer",
+            "de": "Betrachter",
+        },
+        "screen": {
+            "en": "screen",
+            "de": "OP-Bildschirm",
+        },
+    },
+    "markers": _NONE,
+    "plane": {
+        "axial": {
+            "en": "axial",
+            "de": "axiale",
+        },
+        "sagittal": {
+            "en": "sagittal",
+            "de": "sagittale",
+        },
+        "coronal": {
+            "en": "coronal",
+            "de": "koronale",
+        },
+    },
+    "stored": {
+        "colours": {
+            "en": "colours",
+            "de": "Farben",
+        },
+    },
+    "voxels": {
+        "no": {
+            "en": "no",
+            "de": "keine",
+        },
+    },
+    "unit": {
+        "deg": {
+            "en": "deg",
+            "de": "Grad",
+        },
+    },
+    "triggers": {
+        "none": {
+            "en": "none",
+            "de": "keiner",
+        },
+    },
     "waits_for": STEPS,
 }
 

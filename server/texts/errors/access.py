@@ -66,4 +66,38 @@ ACCESS: Mapping[str, tuple[Text, ...]] = {
             "{wait_s} s möglich",
         },
     ),
+    "ROLE_REJECTED": (
+        {
+            "en": "this requires the role {may}, but {person} is signed in as {role}",
+            "de": "dies erfordert die Rolle {may}, {person} ist aber als {role} angemeldet",
+        },
+    ),
+    "BODY_TOO_SLOW": (
+        {
+            "en": "the request was not complete after {allowed_s:g} s",
+            "de": "die Anfrage war nach {allowed_s:g} s nicht vollständig",
+        },
+        {
+            "en": "{taken_kb:.1f} kB of the request arrived, the last {last_kb:.1f} kB in {allowed_s:g} s; "
+            "the minimum is {min_kb:g} kB in this time",
+            "de": "{taken_kb:.1f} kB der Anfrage kamen an, die letzten {last_kb:.1f} kB in {allowed_s:g} "
+            "s; mindestens {min_kb:g} kB in dieser Zeit",
+        },
+    ),
+    "TOO_MANY_VIEWERS": (
+        {
+            "en": "{watching} viewers are connected, the maximum is {most}",
+            "de": "{watching} Zuschauer sind verbunden, höchstens {most}",
+        },
+        {
+            "en": "{name} has {watching} open connections, the maximum per person is {most}",
+            "de": "{name} hat {watching} offene Verbindungen, höchstens {most} je Person",
+        },
+    ),
+    "CAMERA_UNKNOWN": (
+        {
+            "en": "there is no camera '{requested}', only {cameras}",
+            "de": "es gibt keine Kamera „{requested}“, nur {cameras}",
+        },
+    ),
 }

@@ -200,6 +200,12 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
     ),
     "VIEWS_ALL_PARALLEL": (
         {
+            "en": "in all {views} views the board is parallel to itself within {tilt_range_deg:.1f} deg, "
+            "needed {needed_deg:g} deg: distance and focal length cannot be separated",
+            "de": "in allen {views} Ansichten ist die Tafel auf {tilt_range_deg:.1f}° parallel zu sich "
+            "selbst, nötig {needed_deg:g}°: Abstand und Brennweite lassen sich nicht trennen",
+        },
+        {
             "en": "the board's directions differ by {tilt_range_deg:.1f} deg, needed {needed_deg:g} "
             "deg, and the focal length has a standard deviation of {focal_sd_percent:.1f} %, "
             "allowed {allowed_percent:.0f} %",
@@ -218,6 +224,64 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the rehearsal was requested, but its theatre was not built",
             "de": "der Probebetrieb wurde verlangt, sein Operationssaal aber nicht erzeugt",
+        },
+    ),
+    "VIEWS_FROM_ONE_PLACE": (
+        {
+            "en": "all {views} views show the board in one place: it is tilted by {tilt_range_deg:.1f} deg "
+            "between them and moved by {moved_percent:.1f} % of its distance, needed {needed_deg:g} "
+            "deg",
+            "de": "alle {views} Ansichten zeigen die Tafel an einem Ort: zwischen ihnen ist sie um "
+            "{tilt_range_deg:.1f}° geneigt und um {moved_percent:.1f} % ihres Abstands bewegt, nötig "
+            "{needed_deg:g}°",
+        },
+    ),
+    "CAMERA_CHANGED": (
+        {
+            "en": "{control} of the camera changed from {before} to {now} while views were taken",
+            "de": "{control} der Kamera änderte sich von {before} auf {now}, während Ansichten aufgenommen "
+            "wurden",
+        },
+    ),
+    "CAMERA_DIFFERS": (
+        {
+            "en": "{file} was calibrated for the camera whose {key} is '{calibrated}', but camera.{key} is "
+            "'{camera}'",
+            "de": "{file} wurde für die Kamera kalibriert, deren {key} „{calibrated}“ ist, camera.{key} "
+            "ist aber „{camera}“",
+        },
+    ),
+    "STREAM_ADDRESS_INVALID": (
+        {
+            "en": "the stream's address {stream} is invalid: it has no valid host or port",
+            "de": "die Adresse {stream} des Videostroms ist ungültig: sie hat keinen gültigen Rechner oder "
+            "Port",
+        },
+    ),
+    "PHONE_FOCUS_NOT_LOCKED": (
+        {
+            "en": "the focus of the phone's camera {focus_phrase}: when it changes, the calibration is "
+            "invalid, and the change may go unnoticed",
+            "de": "der Fokus der Kamera des Telefons {focus_phrase}: ändert er sich, ist die Kalibrierung "
+            "ungültig, und die Änderung bleibt womöglich unbemerkt",
+        },
+    ),
+    "CAMERA_TRIGGER_NOT_OFFERED": (
+        {
+            "en": "{camera} has no trigger '{trigger}'",
+            "de": "{camera} hat keinen Trigger „{trigger}“",
+        },
+    ),
+    "CAMERA_LIBRARY_MISSING": (
+        {
+            "en": "{camera} needs a library that is not installed here",
+            "de": "{camera} braucht eine Bibliothek, die hier nicht installiert ist",
+        },
+    ),
+    "LATENCY_IMAGES_SKIPPED": (
+        {
+            "en": "{skip_phrase}, the maximum is {max_images}",
+            "de": "{skip_phrase}, höchstens {max_images}",
         },
     ),
 }

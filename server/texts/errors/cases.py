@@ -211,6 +211,10 @@ CASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "CT_PIXELS_UNKNOWN": (
         {
+            "en": "the NIfTI stores {stored}, which are not Hounsfield units",
+            "de": "das NIfTI speichert {stored}, das sind keine Hounsfield-Einheiten",
+        },
+        {
             "en": "the slices store {bits_stored} of {bits_allocated} bits with {high_bit} as the "
             "highest, which is not a CT",
             "de": "die Schichten speichern {bits_stored} von {bits_allocated} Bit mit {high_bit} als "
@@ -290,6 +294,154 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "en": "the document of the patient's identity must not have files, because files are exported",
             "de": "das Dokument mit der Identität des Patienten darf keine Dateien haben, weil Dateien "
             "exportiert werden",
+        },
+    ),
+    "CT_UNREADABLE": (
+        {
+            "en": "the file or folder cannot be read: {system_error}",
+            "de": "die Datei oder der Ordner ist nicht lesbar: {system_error}",
+        },
+    ),
+    "CT_SIZES_DIFFER": (
+        {
+            "en": "the slices have different sizes in pixels: {counted}",
+            "de": "die Schichten haben verschiedene Größen in Pixeln: {counted}",
+        },
+    ),
+    "CT_RESCALE_MISSING": (
+        {
+            "en": "{slices} of {of} slices do not state their conversion to Hounsfield units (Rescale "
+            "Slope and Intercept){table_hint}",
+            "de": "{slices} von {of} Schichten nennen ihre Umrechnung in Hounsfield-Einheiten nicht "
+            "(Rescale Slope und Intercept){table_hint}",
+        },
+    ),
+    "CT_NOT_HU": (
+        {
+            "en": "the values of {slices} of {of} slices are not Hounsfield units, but {counted}",
+            "de": "die Werte von {slices} von {of} Schichten sind keine Hounsfield-Einheiten, sondern "
+            "{counted}",
+        },
+    ),
+    "CT_NOT_CT": (
+        {
+            "en": "the images are not a CT: {counted}",
+            "de": "die Bilder sind kein CT: {counted}",
+        },
+    ),
+    "CT_SLICE_TRUNCATED": (
+        {
+            "en": "a slice is truncated: its file of {bytes} bytes lacks a part of the declared {columns} "
+            "x {rows} pixels{pixel_count}",
+            "de": "eine Schicht ist abgeschnitten: ihrer Datei von {bytes} Bytes fehlt ein Teil der "
+            "angegebenen {columns} x {rows} Pixel{pixel_count}",
+        },
+    ),
+    "CT_SERIES_UNCLEAR": (
+        {
+            "en": "there are {count} CT series, of {slices} slices",
+            "de": "es gibt {count} CT-Serien, mit {slices} Schichten",
+        },
+    ),
+    "CT_SERIES_UNKNOWN": (
+        {
+            "en": "none of the {count} series has this identifier",
+            "de": "keine der {count} Serien hat diese Kennung",
+        },
+    ),
+    "CT_PATIENTS_MIXED": (
+        {
+            "en": "{images_where} contains images with {patients} different {identity_kind}, expected 1",
+            "de": "{images_where} enthält Bilder mit {patients} verschiedenen {identity_kind}, erwartet 1",
+        },
+    ),
+    "CT_VOXEL_SIZE_ODD": (
+        {
+            "en": "the voxels have {size} mm (unit in the file: {unit}), allowed: {min_mm} to {max_mm:.0f} "
+            "mm{voxel_unit_guess}",
+            "de": "die Voxel haben {size} mm (Einheit in der Datei: {unit}), erlaubt: {min_mm} bis "
+            "{max_mm:.0f} mm{voxel_unit_guess}",
+        },
+    ),
+    "CT_AFFINES_CONTRADICT": (
+        {
+            "en": "the NIfTI's sform and qform contradict each other: one is the mirror image of the other",
+            "de": "sform und qform des NIfTI widersprechen sich: eine ist das Spiegelbild der anderen",
+        },
+        {
+            "en": "the NIfTI's sform and qform contradict each other: voxels of {sform_size} and "
+            "{qform_size} mm",
+            "de": "sform und qform des NIfTI widersprechen sich: Voxel von {sform_size} und {qform_size} mm",
+        },
+    ),
+    "CT_NOT_ONE_VOLUME": (
+        {
+            "en": "the NIfTI has {voxels} voxels, expected one volume of three axes with at least 2 each",
+            "de": "das NIfTI hat {voxels} Voxel, erwartet ein Volumen mit drei Achsen und mindestens je 2",
+        },
+    ),
+    "CT_SLICES_MISSING": (
+        {
+            "en": "{missing} of {needed} slices are missing: after slice {after} of {slices}, in the order "
+            "of their positions, the next is {gap_mm:.3f} mm away, the others lie {spacing_mm:.3f} "
+            "mm apart",
+            "de": "{missing} von {needed} Schichten fehlen: nach Schicht {after} von {slices}, in der "
+            "Reihenfolge ihrer Positionen, folgt die nächste in {gap_mm:.3f} mm, die übrigen liegen "
+            "{spacing_mm:.3f} mm auseinander",
+        },
+    ),
+    "CT_SPACING_UNEVEN": (
+        {
+            "en": "the slices lie between {min_mm:.3f} and {max_mm:.3f} mm apart, mostly {spacing_mm:.3f} "
+            "mm: after slice {after} of {slices}, in the order of their positions, the next is "
+            "{gap_mm:.3f} mm away",
+            "de": "die Schichten liegen zwischen {min_mm:.3f} und {max_mm:.3f} mm auseinander, meist "
+            "{spacing_mm:.3f} mm: nach Schicht {after} von {slices}, in der Reihenfolge ihrer "
+            "Positionen, folgt die nächste in {gap_mm:.3f} mm",
+        },
+    ),
+    "MESH_FORMAT_UNKNOWN": (
+        {
+            "en": "the mesh format '{format}' is not supported, supported are {formats}",
+            "de": "das Netzformat „{format}“ wird nicht unterstützt, unterstützt sind {formats}",
+        },
+    ),
+    "MESH_EMPTY": (
+        {
+            "en": "the mesh has {vertices} vertices and {faces} triangles",
+            "de": "das Netz hat {vertices} Ecken und {faces} Dreiecke",
+        },
+        {
+            "en": "the mesh has {with_area} triangles with an area, needed 4 or more",
+            "de": "das Netz hat {with_area} Dreiecke mit einer Fläche, nötig 4 oder mehr",
+        },
+    ),
+    "MESH_UNIT_INVALID": (
+        {
+            "en": "'{unit}' is not a unit of a mesh",
+            "de": "„{unit}“ ist keine Einheit eines Netzes",
+        },
+    ),
+    "FILE_DAMAGED": (
+        {
+            "en": "the file {file_id} of the case {case_id} is damaged: {damage}",
+            "de": "die Datei {file_id} des Falls {case_id} ist beschädigt: {damage}",
+        },
+    ),
+    "HOME_NOT_LOCKABLE": (
+        {
+            "en": "the disk of the folder {folder} does not support file locks (as some network disks), so "
+            "that another Coaxial could write into it at the same time",
+            "de": "die Platte des Ordners {folder} unterstützt keine Dateisperren (wie manche "
+            "Netzlaufwerke), daher könnte ein anderes Coaxial zugleich hineinschreiben",
+        },
+    ),
+    "STORE_SCHEMA_UNKNOWN": (
+        {
+            "en": "the database in {folder} has schema {found}, this program supports schemas {first} to "
+            "{newest}",
+            "de": "die Datenbank in {folder} hat das Schema {found}, dieses Programm unterstützt die "
+            "Schemas {first} bis {newest}",
         },
     ),
 }

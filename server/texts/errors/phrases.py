@@ -53,6 +53,14 @@ _FAULTS: tuple[Text, ...] = (
     {"en": "a wrong focal length", "de": "eine falsche Brennweite"},
 )
 
+# Sorted by their English names, as an error names them.
+_ROLES: tuple[Text, ...] = (
+    {"en": "operator", "de": "Bedienung"},
+    {"en": "screen", "de": "OP-Bildschirm"},
+    {"en": "supervisor", "de": "Aufsicht"},
+    {"en": "viewer", "de": "Betrachter"},
+)
+
 PHRASES: Mapping[str, tuple[Text, ...]] = {
     "wrong_way": ({"en": "small", "de": "klein"}, {"en": "large", "de": "groß"}),
     "fault_phrase": _FAULTS,
@@ -170,4 +178,166 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "side": _SIDES,
     "other_side": _SIDES,
+    "may": tuple(
+        {"en": " or ".join(one["en"] for one in roles), "de": " oder ".join(one["de"] for one in roles)}
+        for count in range(1, 5)
+        for roles in combinations(_ROLES, count)
+    ),
+    "import_phrase": (
+        _NONE,
+        {
+            "en": " and imported by {importer}",
+            "de": " und von {importer} importiert",
+        },
+    ),
+    "plan_problem": (
+        {
+            "en": "its format is not '{format}'",
+            "de": "ihr Format ist nicht „{format}“",
+        },
+        {
+            "en": "it is nested too deeply",
+            "de": "sie ist zu tief verschachtelt",
+        },
+        {
+            "en": "it is not valid JSON",
+            "de": "sie ist kein gültiges JSON",
+        },
+        {
+            "en": "it is not a JSON object",
+            "de": "sie ist kein JSON-Objekt",
+        },
+    ),
+    "table_hint": (
+        _NONE,
+        {
+            "en": ", but a lookup table",
+            "de": ", sondern eine Umsetzungstabelle",
+        },
+    ),
+    "pixel_count": (
+        _NONE,
+        {
+            "en": " ({pixel_bytes} bytes of pixels)",
+            "de": " ({pixel_bytes} Bytes Pixel)",
+        },
+        {
+            "en": " ({pixel_bytes} bytes of pixels, expected {needed_bytes})",
+            "de": " ({pixel_bytes} Bytes Pixel, erwartet {needed_bytes})",
+        },
+    ),
+    "images_where": (
+        {
+            "en": "the series",
+            "de": "die Serie",
+        },
+        {
+            "en": "the folder",
+            "de": "der Ordner",
+        },
+    ),
+    "identity_kind": (
+        {
+            "en": "patient IDs",
+            "de": "Patienten-IDs",
+        },
+        {
+            "en": "patient names",
+            "de": "Patientennamen",
+        },
+        {
+            "en": "dates of birth",
+            "de": "Geburtsdaten",
+        },
+    ),
+    "voxel_unit_guess": (
+        _NONE,
+        {
+            "en": "; they would be plausible in metres",
+            "de": "; in Metern wären sie plausibel",
+        },
+        {
+            "en": "; they would be plausible in micrometres",
+            "de": "; in Mikrometern wären sie plausibel",
+        },
+    ),
+    "damage": (
+        {
+            "en": "it is missing",
+            "de": "sie fehlt",
+        },
+        {
+            "en": "its SHA-256 differs",
+            "de": "ihr SHA-256 stimmt nicht",
+        },
+    ),
+    "image_range": (
+        {
+            "en": "has images from 0 to {last_s:.1f} s",
+            "de": "hat Bilder von 0 bis {last_s:.1f} s",
+        },
+        {
+            "en": "has no image",
+            "de": "hat kein Bild",
+        },
+    ),
+    "write_problem": (
+        {
+            "en": "the disk is full",
+            "de": "die Platte ist voll",
+        },
+        {
+            "en": "{system_error}",
+            "de": "{system_error}",
+        },
+    ),
+    "read_problem": (
+        {
+            "en": "it is not an MCAP file",
+            "de": "sie ist keine MCAP-Datei",
+        },
+        {
+            "en": "it is not a recording of Coaxial",
+            "de": "sie ist keine Aufnahme von Coaxial",
+        },
+        {
+            "en": "{system_error}",
+            "de": "{system_error}",
+        },
+    ),
+    "incomplete_reason": (
+        {
+            "en": "a checksum is wrong",
+            "de": "eine Prüfsumme stimmt nicht",
+        },
+        {
+            "en": "it ends inside a chunk",
+            "de": "sie endet mitten in einem Abschnitt",
+        },
+        {
+            "en": "its end record is missing",
+            "de": "ihr Endeintrag fehlt",
+        },
+    ),
+    "focus_phrase": (
+        {
+            "en": "is automatic",
+            "de": "ist automatisch",
+        },
+        {
+            "en": "cannot be locked or read in its browser",
+            "de": "lässt sich in seinem Browser weder feststellen noch auslesen",
+        },
+    ),
+    "skip_phrase": (
+        {
+            "en": "{skipped_images} of {images} images were not shown on this page",
+            "de": "{skipped_images} von {images} Bildern wurden auf dieser Seite nicht gezeigt",
+        },
+        {
+            "en": "{unprocessed_images} of {shown_images} images on this page were not searched for a code",
+            "de": "in {unprocessed_images} von {shown_images} Bildern auf dieser Seite wurde kein Code "
+            "gesucht",
+        },
+    ),
 }

@@ -578,6 +578,10 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
     ),
     "ALARM_NOT_LOGGED": (
         {
+            "en": "the alarm log failed: {cause}",
+            "de": "das Alarmprotokoll ist ausgefallen: {cause}",
+        },
+        {
             "en": "the action could not be written to the alarm log within {timeout_s:g} s",
             "de": "die Aktion konnte nicht innerhalb von {timeout_s:g} s in das Alarmprotokoll "
             "geschrieben werden",
@@ -621,6 +625,84 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "{ct_low} to {ct_high} mm",
             "de": "der Bereich von {low} bis {high} mm liegt außerhalb des CT, das von {ct_low} bis "
             "{ct_high} mm reicht",
+        },
+    ),
+    "PLAN_FILE_VERSION": (
+        {
+            "en": "the file has format version {found}, but this program reads version {known}",
+            "de": "die Datei hat die Formatversion {found}, dieses Programm liest Version {known}",
+        },
+    ),
+    "PLAN_FILE_INVALID": (
+        {
+            "en": "the file is not a plan: {plan_problem}",
+            "de": "die Datei ist kein Plan: {plan_problem}",
+        },
+    ),
+    "PLAN_VERSION_UNKNOWN": (
+        {
+            "en": "the plan has format version {found}, this program reads {known}",
+            "de": "der Plan hat die Formatversion {found}, dieses Programm liest {known}",
+        },
+    ),
+    "SIGNED_BY_MAKER": (
+        {
+            "en": "{title} was made by {maker}{import_phrase}, and its author cannot co-sign it",
+            "de": "{title} wurde von {maker} erstellt{import_phrase}, und wer etwas erstellt hat, kann es "
+            "nicht gegenzeichnen",
+        },
+    ),
+    "VERTEBRA_INVALID": (
+        {
+            "en": "vertebra '{name}' has pedicles {pedicles}, channels {channels}, {references} reference "
+            "slices and up to {screws} screws to a channel; needed a name and at most one of each to "
+            "a side",
+            "de": "Wirbel „{name}“ hat Pedikel {pedicles}, Kanäle {channels}, {references} "
+            "Referenzschichten und bis zu {screws} Schrauben je Kanal; nötig ein Name und höchstens "
+            "je eines pro Seite",
+        },
+    ),
+    "SLICE_OUTSIDE": (
+        {
+            "en": "there is no {plane} slice at {at_mm:.2f} mm: the CT reaches from {from_mm:.2f} to "
+            "{to_mm:.2f} mm",
+            "de": "es gibt keine {plane} Schicht bei {at_mm:.2f} mm: das CT reicht von {from_mm:.2f} bis "
+            "{to_mm:.2f} mm",
+        },
+    ),
+    "PRESET_UNKNOWN": (
+        {
+            "en": "there is no preset '{preset}', available are {available}",
+            "de": "es gibt keine Voreinstellung „{preset}“, verfügbar sind {available}",
+        },
+    ),
+    "POINT_INVALID": (
+        {
+            "en": "{name} is '{given}', expected three numbers within 10000 mm",
+            "de": "{name} ist „{given}“, erwartet drei Zahlen bis 10000 mm",
+        },
+    ),
+    "ALARM_PAUSE_TOO_LONG": (
+        {
+            "en": "a pause of {requested_s:g} s was requested, allowed is more than 0 and up to {max_s:g} s",
+            "de": "eine Pause von {requested_s:g} s wurde verlangt, erlaubt ist mehr als 0 und bis zu "
+            "{max_s:g} s",
+        },
+    ),
+    "BONE_NOT_FOUND": (
+        {
+            "en": "there is no bone surface in this region",
+            "de": "in diesem Bereich gibt es keine Knochenoberfläche",
+        },
+        {
+            "en": "there is no bone surface in this region at {threshold_hu:.0f} HU",
+            "de": "in diesem Bereich gibt es keine Knochenoberfläche bei {threshold_hu:.0f} HU",
+        },
+    ),
+    "CATALOGUE_INVALID": (
+        {
+            "en": "the screw catalogue's {setting} are {values}, needed one or more between 0 and 200 mm",
+            "de": "{setting} im Schraubenkatalog sind {values}, nötig eines oder mehr zwischen 0 und 200 mm",
         },
     ),
 }

@@ -73,6 +73,10 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
     ),
     "RECORDING_DAMAGED": (
         {
+            "en": "{name} cannot be read up to {to_s:.1f} s: {incomplete_reason}",
+            "de": "{name} ist nicht bis {to_s:.1f} s lesbar: {incomplete_reason}",
+        },
+        {
             "en": "image {number} of {name} cannot be decoded",
             "de": "Bild {number} von {name} lässt sich nicht dekodieren",
         },
@@ -123,6 +127,36 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the table {name} cannot be written: {reason}",
             "de": "die Tabelle {name} kann nicht geschrieben werden: {reason}",
+        },
+    ),
+    "CUT_EMPTY": (
+        {
+            "en": "there is no image from {from_s:.1f} to {to_s:.1f} s; {name} {image_range}",
+            "de": "von {from_s:.1f} bis {to_s:.1f} s gibt es kein Bild; {name} {image_range}",
+        },
+    ),
+    "CUT_NOT_WRITTEN": (
+        {
+            "en": "{name} cannot be written: {write_problem}",
+            "de": "{name} kann nicht geschrieben werden: {write_problem}",
+        },
+    ),
+    "VIDEO_NOT_WRITTEN": (
+        {
+            "en": "the video {name} cannot be written: {system_error}",
+            "de": "das Video {name} kann nicht geschrieben werden: {system_error}",
+        },
+    ),
+    "RECORDING_NOT_WRITTEN": (
+        {
+            "en": "the recording {name} cannot be written: {write_problem}",
+            "de": "die Aufnahme {name} kann nicht geschrieben werden: {write_problem}",
+        },
+    ),
+    "RECORDING_NOT_READABLE": (
+        {
+            "en": "{file} cannot be read as a recording: {read_problem}",
+            "de": "{file} ist nicht als Aufnahme lesbar: {read_problem}",
         },
     ),
 }

@@ -194,6 +194,10 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
     ),
     "REFERENCE_UNSEEN": (
         {
+            "en": "the reference is not seen",
+            "de": "der Patientenmarker ist nicht zu sehen",
+        },
+        {
             "en": "the marker '{reference}' on the patient is not seen in this image",
             "de": "der Patientenmarker „{reference}“ ist in diesem Bild nicht zu sehen",
         },
@@ -313,6 +317,10 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
     ),
     "POINTS_INVALID": (
         {
+            "en": "the points {points_where} have shape {shape}, needed (n, 3)",
+            "de": "die Punkte {points_where} haben die Form {shape}, nötig (n, 3)",
+        },
+        {
             "en": "{labels} points have {names} different names",
             "de": "{labels} Punkte haben {names} verschiedene Namen",
         },
@@ -421,6 +429,27 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
             "en": "the camera looks straight down, so V and H do not determine the up direction in its image",
             "de": "die Kamera blickt senkrecht nach unten, daher bestimmen V und H nicht, wo in ihrem "
             "Bild oben ist",
+        },
+    ),
+    "NEEDLES_SWAPPED": (
+        {
+            "en": "needles {needles} seem to be swapped: the other order fits better by {gain_chi2:.1f} in "
+            "chi squared, allowed {allowed_chi2:g}",
+            "de": "die Nadeln {needles} sind offenbar vertauscht: die andere Reihenfolge passt um "
+            "{gain_chi2:.1f} in Chi-Quadrat besser, erlaubt {allowed_chi2:g}",
+        },
+    ),
+    "NUDGE_STEP_INVALID": (
+        {
+            "en": "a nudge of {amount:g} {unit} is not allowed; the steps are {steps} {unit}",
+            "de": "eine Korrektur um {amount:g} {unit} ist nicht erlaubt; die Schritte sind {steps} {unit}",
+        },
+    ),
+    "SURFACE_SWEEP_INVALID": (
+        {
+            "en": "the swept points have shape {shape}, needed (n, 3), or a number is not finite",
+            "de": "die abgefahrenen Punkte haben die Form {shape}, nötig (n, 3), oder eine Zahl ist nicht "
+            "endlich",
         },
     ),
 }

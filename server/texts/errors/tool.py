@@ -216,4 +216,37 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
             "de": "{source} hat {samples} verschiedene Lagen in Abschnitten ohne Lücke, nötig {min_samples}",
         },
     ),
+    "MARKER_IMAGE_UNREADABLE": (
+        {
+            "en": "the marker picture {file} cannot be read: {system_error}",
+            "de": "das Markerbild {file} ist nicht lesbar: {system_error}",
+        },
+        {
+            "en": "the marker picture {file} ({bytes} bytes) cannot be decoded",
+            "de": "das Markerbild {file} ({bytes} Bytes) lässt sich nicht dekodieren",
+        },
+    ),
+    "MARKER_IMAGE_TOO_SMALL": (
+        {
+            "en": "the marker picture {file} is {width_px}x{height_px} px, the minimum is {min_px} px per "
+            "side",
+            "de": "das Markerbild {file} hat {width_px}x{height_px} px, mindestens {min_px} px je Seite",
+        },
+    ),
+    "MARKER_IMAGE_NOT_SQUARE": (
+        {
+            "en": "the marker picture {file} is {width_px}x{height_px} px, its sides may differ by at most "
+            "{tolerance_ratio:.0%}",
+            "de": "das Markerbild {file} hat {width_px}x{height_px} px, die Seiten dürfen sich um "
+            "höchstens {tolerance_ratio:.0%} unterscheiden",
+        },
+    ),
+    "MARKER_IMAGE_FLAT": (
+        {
+            "en": "the marker picture {file} spans {contrast_grey} of 255 grey levels, the minimum is "
+            "{min_contrast_grey}",
+            "de": "das Markerbild {file} umfasst {contrast_grey} von 255 Graustufen, mindestens "
+            "{min_contrast_grey}",
+        },
+    ),
 }

@@ -82,7 +82,7 @@ def test_every_rejection_has_the_one_shape(
 def test_the_error_for_an_unknown_camera_lists_the_known_ones(client: TestClient) -> None:
     reported = client.get("/video/side.mjpg").json()
     assert reported["message"] == "there is no camera 'side', only main"
-    assert reported["context"] == {"requested": "side", "known": ["main"]}
+    assert reported["context"] == {"requested": "side", "known": ["main"], "cameras": "main"}
 
 
 def test_errors_of_the_tracker_keep_their_words(client: TestClient) -> None:

@@ -14,7 +14,7 @@ from tracker.errors import RegistrationError
 
 # Error codes with at least one message or remedy that has no German yet, without those of the command line.
 # Lower it with each translation; nothing may raise it.
-MAX_UNTRANSLATED = 160
+MAX_UNTRANSLATED = 96
 
 TEMPLATES = [
     *((code, text) for code, texts in MESSAGES.items() for text in texts),

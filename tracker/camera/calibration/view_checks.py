@@ -57,7 +57,13 @@ def reject_one_pose(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> 
     apart = float(
         np.linalg.norm(where - where.mean(axis=0), axis=1).max() / np.linalg.norm(where.mean(axis=0))
     )
-    context: dict[str, object] = {"views": len(views), "tilt_range_deg": widest_deg, "moved_ratio": apart}
+    context: dict[str, object] = {
+        "views": len(views),
+        "tilt_range_deg": widest_deg,
+        "needed_deg": PARALLEL_DEG,
+        "moved_ratio": apart,
+        "moved_percent": 100 * apart,
+    }
     remedy = "Take 10 to 20 views with the board tilted by 20 to 45 deg to different sides, near and far."
     if apart < SAME_PLACE_RATIO:
         raise CalibrationError(

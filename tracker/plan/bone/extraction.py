@@ -37,6 +37,7 @@ NEIGHBOUR_SD_MM = 0.03
 # covariance of the fit is sufficient; on cadavers the thickness had errors of 0.6 mm at single points (Treece
 # 2010).
 MODEL_VOXELS = 0.25
+OTHER_REGION = "Give a region in which there is bone, or another threshold."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -240,9 +241,11 @@ def _placed(
 
 
 def _not_found(threshold_hu: float | None) -> PlanError:
+    if threshold_hu is None:
+        return PlanError("BONE_NOT_FOUND", "there is no bone surface in this region", OTHER_REGION)
     return PlanError(
         "BONE_NOT_FOUND",
-        "there is no bone surface in this region"
-        + ("" if threshold_hu is None else f" at {threshold_hu:.0f} HU"),
-        "Give a region in which there is bone, or another threshold.",
+        f"there is no bone surface in this region at {threshold_hu:.0f} HU",
+        OTHER_REGION,
+        {"threshold_hu": threshold_hu},
     )

@@ -57,11 +57,12 @@ def _in_newest_version(mapped: Mapping[str, object]) -> Mapping[str, object]:
     """Migrate a mapping of an older format version."""
     version = mapped.get("format_version")
     if type(version) is not int or version not in READABLE_VERSIONS:
+        found, known = repr(version)[:20], ", ".join(map(str, READABLE_VERSIONS))
         raise PlanError(
             "PLAN_VERSION_UNKNOWN",
-            f"the plan has format version {repr(version)[:20]}, "
-            f"this program reads {' and '.join(map(str, READABLE_VERSIONS))}",
+            f"the plan has format version {found}, this program reads {known}",
             "Open it with the program that wrote it, or plan again.",
+            {"found": found, "known": known},
         )
     return {**mapped, "format_version": FORMAT_VERSION}
 

@@ -71,7 +71,13 @@ class VertebraPlan:
                 f"{len(self.references)} reference slices and up to {screws} screws to a channel; "
                 "needed a name and at most one of each to a side",
                 "Remove the duplicates.",
-                {"name": self.name[:40]},
+                {
+                    "name": self.name[:40],
+                    "pedicles": str(sides[:9]),
+                    "channels": str(ways[:9]),
+                    "references": len(self.references),
+                    "screws": screws,
+                },
             )
         reject_duplicate_names(self.landmarks)
 

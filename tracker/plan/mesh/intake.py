@@ -106,6 +106,7 @@ def _checked(points: Array, corners: Faces) -> tuple[Array, Faces]:
             "MESH_EMPTY",
             f"the mesh has {points.size // 3} vertices and {corners.size // 3} triangles",
             "Export the bone's surface again as triangles in STL, OBJ or PLY.",
+            {"vertices": points.size // 3, "faces": corners.size // 3},
         )
     problem = ""
     if points.ndim != 2 or points.shape[1] != 3 or corners.ndim != 2 or corners.shape[1] != 3:
@@ -140,7 +141,7 @@ def _cleaned(points: Array, corners: Faces) -> tuple[Array, Faces, int]:
             "MESH_EMPTY",
             f"the mesh has {corners.shape[0]} triangles with an area, needed 4 or more",
             "Export the bone's surface again as triangles in STL, OBJ or PLY.",
-            {"faces": before},
+            {"faces": before, "with_area": int(corners.shape[0])},
         )
     return *referenced(unique, corners), before - int(corners.shape[0])
 
@@ -148,11 +149,12 @@ def _cleaned(points: Array, corners: Faces) -> tuple[Array, Faces, int]:
 def _kind(size: Array, unit: str | None) -> Kind:
     """Return the kind of the mesh by its size in the given unit, or in mm."""
     if unit is not None and unit not in MM_FROM_UNIT:
+        units = ", ".join(MM_FROM_UNIT)
         raise PlanError(
             "MESH_UNIT_INVALID",
             f"'{unit}' is not a unit of a mesh",
-            f"Give one of {', '.join(MM_FROM_UNIT)}.",
-            {"unit": unit, "allowed": list(MM_FROM_UNIT)},
+            f"Give one of {units}.",
+            {"unit": unit, "allowed": list(MM_FROM_UNIT), "units": units},
         )
     kind = kind_of(size * MM_FROM_UNIT[unit or "mm"])
     if kind is not None:

@@ -31,7 +31,7 @@ class ScrewCatalogue:
                     f"the screw catalogue's {name} are {list(values)}, "
                     "needed one or more between 0 and 200 mm",
                     "Correct plan.screws in the config.",
-                    {name: list(values)},
+                    {"setting": name, "values": str(list(values))},
                 )
             object.__setattr__(self, name, values)
 

@@ -73,7 +73,7 @@ def patient_slice(
             "SLICE_OUTSIDE",
             f"there is no {plane} slice at {at_mm:.2f} mm: the CT reaches from {low:.2f} to {high:.2f} mm",
             "Choose a place inside the CT.",
-            {"at_mm": at_mm, "from_mm": low, "to_mm": high},
+            {"plane": plane, "at_mm": at_mm, "from_mm": low, "to_mm": high},
         )
     view = VIEWS[plane]
     if slab_mm == 0.0 and pixel_mm is None:

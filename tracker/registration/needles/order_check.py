@@ -40,11 +40,16 @@ def reject_swapped(
     """
     if delta_chi2 >= -gate.max_swap_delta_chi2:
         return
-    swapped = [f"'{places[n].name[:40]}'" for n, at in enumerate(order) if n != at]
+    needles = ", ".join(f"'{places[n].name[:40]}'" for n, at in enumerate(order) if n != at)
     raise RegistrationError(
         "NEEDLES_SWAPPED",
-        f"needles {' and '.join(swapped)} seem to be swapped: the other order fits better by "
+        f"needles {needles} seem to be swapped: the other order fits better by "
         f"{-delta_chi2:.1f} in chi squared, allowed {gate.max_swap_delta_chi2:g}",
         "Mark each needle again under its own name, or touch the entry of one with the tool's tip.",
-        {"delta_chi2": delta_chi2},
+        {
+            "needles": needles,
+            "delta_chi2": delta_chi2,
+            "gain_chi2": -delta_chi2,
+            "allowed_chi2": gate.max_swap_delta_chi2,
+        },
     )

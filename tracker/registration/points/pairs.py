@@ -97,7 +97,10 @@ def _points(given: Array, which: str) -> Array:
         points = points.reshape(0, 3)
     if points.ndim != 2 or points.shape[1] != 3:
         raise RegistrationError(
-            "POINTS_INVALID", f"the points {which} have shape {points.shape}, needed (n, 3)", PAIR_REMEDY
+            "POINTS_INVALID",
+            f"the points {which} have shape {points.shape}, needed (n, 3)",
+            PAIR_REMEDY,
+            {"points_where": which, "shape": str(points.shape)},
         )
     if not np.isfinite(points).all():
         wrong = int((~np.isfinite(points).all(axis=1)).sum())

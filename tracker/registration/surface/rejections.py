@@ -24,6 +24,7 @@ def validate_sweep(points_mm: Array) -> Array:
             "SURFACE_SWEEP_INVALID",
             f"the swept points have shape {points.shape}, needed (n, 3), or a number is not finite",
             "Give the positions of the tip in mm, in the anchor's frame.",
+            {"shape": str(points.shape)},
         )
     return points
 

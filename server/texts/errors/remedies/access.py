@@ -43,4 +43,24 @@ ACCESS: tuple[Text, ...] = (
         "en": "Set security.sign_in to required in the settings, and start the server again.",
         "de": "In den Einstellungen security.sign_in auf required setzen und den Server neu starten.",
     },
+    {
+        "en": "Ask a person with this role to do it, or to invite you with this role.",
+        "de": "Eine Person mit dieser Rolle darum bitten, oder um eine Einladung mit dieser Rolle.",
+    },
+    {
+        "en": "Send it again over a faster connection.",
+        "de": "Über eine schnellere Verbindung erneut senden.",
+    },
+    {
+        "en": "Close an unused view, or raise video.max_viewers in the settings.",
+        "de": "Eine ungenutzte Ansicht schließen, oder video.max_viewers in den Einstellungen erhöhen.",
+    },
+    {
+        "en": "Close an unused page.",
+        "de": "Eine ungenutzte Seite schließen.",
+    },
+    {
+        "en": "Use one of these cameras, or configure another one in the settings.",
+        "de": "Eine dieser Kameras verwenden, oder eine weitere in den Einstellungen angeben.",
+    },
 )

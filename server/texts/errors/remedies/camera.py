@@ -169,4 +169,35 @@ CAMERA: tuple[Text, ...] = (
         "de": "Das Programm neu starten; bleibt der Fehler, das Protokoll des Servers an die Betreuung "
         "senden.",
     },
+    {
+        "en": "Do not change the camera (camera.lock_controls disables autofocus), and start again.",
+        "de": "Die Kamera nicht verstellen (camera.lock_controls schaltet den Autofokus ab) und neu "
+        "beginnen.",
+    },
+    {
+        "en": "Give an address such as rtsp://user:password@camera:554/path; write / ? # @ in a "
+        "password as %2F %3F %23 %40.",
+        "de": "Eine Adresse wie rtsp://user:password@camera:554/path angeben; / ? # @ in einem "
+        "Passwort als %2F %3F %23 %40 schreiben.",
+    },
+    {
+        "en": "Keep the distance from the phone to the field as during the calibration, and check on a "
+        "landmark often. Chrome on Android can lock the focus of most phones.",
+        "de": "Den Abstand vom Telefon zum Operationsfeld wie bei der Kalibrierung halten und oft an "
+        "einer Landmarke prüfen. Chrome auf Android kann den Fokus der meisten Telefone "
+        "feststellen.",
+    },
+    {
+        "en": "Set camera.trigger to an available trigger ({triggers}), or to null.",
+        "de": "camera.trigger auf einen verfügbaren Trigger ({triggers}) oder auf null setzen.",
+    },
+    {
+        "en": "Install it with pip install 'coaxial[{extra}]', and start again.",
+        "de": "Sie mit pip install 'coaxial[{extra}]' installieren und neu starten.",
+    },
+    {
+        "en": "Close other pages, select a smaller picture or lower camera.rate_hz, and measure again.",
+        "de": "Andere Seiten schließen, ein kleineres Bild wählen oder camera.rate_hz senken, und neu "
+        "messen.",
+    },
 )

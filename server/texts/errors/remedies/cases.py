@@ -122,4 +122,67 @@ CASES: tuple[Text, ...] = (
         "en": "Stop the other one, or set COAXIAL_HOME to another folder.",
         "de": "Das andere Coaxial beenden, oder COAXIAL_HOME auf einen anderen Ordner setzen.",
     },
+    {
+        "en": "Check its read permission.",
+        "de": "Die Leserechte prüfen.",
+    },
+    {
+        "en": "Export the original CT series again.",
+        "de": "Die originale CT-Serie neu exportieren.",
+    },
+    {
+        "en": "Export the CT series in Hounsfield units (not iodine, density or effective atomic number).",
+        "de": "Die CT-Serie in Hounsfield-Einheiten exportieren (nicht Jod, Dichte oder effektive "
+        "Ordnungszahl).",
+    },
+    {
+        "en": "Give a CT; MR, PET and others have no Hounsfield units.",
+        "de": "Ein CT angeben; MR, PET und andere haben keine Hounsfield-Einheiten.",
+    },
+    {
+        "en": "Select the series for planning: {identifiers}.",
+        "de": "Die Serie für die Planung wählen: {identifiers}.",
+    },
+    {
+        "en": "Give the identifier of one of them: {identifiers}.",
+        "de": "Die Kennung von einer angeben: {identifiers}.",
+    },
+    {
+        "en": "Give a folder with the images of one patient only.",
+        "de": "Einen Ordner mit Bildern nur eines Patienten angeben.",
+    },
+    {
+        "en": "Export one volume of the CT; a time series contains several.",
+        "de": "Ein Volumen des CT exportieren; eine Zeitserie enthält mehrere.",
+    },
+    {
+        "en": "Convert or export the CT again as NIfTI, or give its DICOM slices.",
+        "de": "Das CT neu in NIfTI umwandeln oder exportieren, oder seine DICOM-Schichten angeben.",
+    },
+    {
+        "en": "Export the bone surface again as triangles in STL, OBJ or PLY.",
+        "de": "Die Knochenoberfläche neu als Dreiecke in STL, OBJ oder PLY exportieren.",
+    },
+    {
+        "en": "Export the bone's surface again as triangles in STL, OBJ or PLY.",
+        "de": "Die Knochenoberfläche neu als Dreiecke in STL, OBJ oder PLY exportieren.",
+    },
+    {
+        "en": "Give one of {units}.",
+        "de": "Eine von {units} angeben.",
+    },
+    {
+        "en": "Restore the file from a copy; steps that need it are not possible until then.",
+        "de": "Die Datei aus einer Kopie wiederherstellen; bis dahin sind Schritte, die sie brauchen, "
+        "nicht möglich.",
+    },
+    {
+        "en": "Set COAXIAL_HOME to a folder on a disk of this computer.",
+        "de": "COAXIAL_HOME auf einen Ordner auf einer Platte dieses Computers setzen.",
+    },
+    {
+        "en": "Start the version of Coaxial that made it, or set COAXIAL_HOME to another folder.",
+        "de": "Die Version von Coaxial starten, die sie erstellte, oder COAXIAL_HOME auf einen anderen "
+        "Ordner setzen.",
+    },
 )

@@ -361,4 +361,52 @@ PROCEDURE: tuple[Text, ...] = (
         "en": "Give a region inside of the CT, in its own coordinates (LPS).",
         "de": "Einen Bereich im CT angeben, in dessen Koordinaten (LPS).",
     },
+    {
+        "en": "Export the plan with a program of the same version.",
+        "de": "Den Plan mit einem Programm derselben Version exportieren.",
+    },
+    {
+        "en": "Export the plan again from the program in which it was made.",
+        "de": "Den Plan aus dem Programm, in dem er erstellt wurde, neu exportieren.",
+    },
+    {
+        "en": "Open it with the program that wrote it, or plan again.",
+        "de": "Ihn mit dem Programm öffnen, das ihn schrieb, oder neu planen.",
+    },
+    {
+        "en": "Have another person review and sign it.",
+        "de": "Von einer anderen Person prüfen und zeichnen lassen.",
+    },
+    {
+        "en": "Remove the duplicates.",
+        "de": "Doppelte entfernen.",
+    },
+    {
+        "en": "Choose a place inside the CT.",
+        "de": "Einen Ort innerhalb des CT wählen.",
+    },
+    {
+        "en": "Use one of them, or give window and level in HU.",
+        "de": "Eine davon verwenden, oder Fenster und Zentrum in HU angeben.",
+    },
+    {
+        "en": "Give {name}=x,y,z in mm of LPS.",
+        "de": "{name}=x,y,z in mm (LPS) angeben.",
+    },
+    {
+        "en": "Pause for a shorter time; the sound resumes automatically and can be paused again.",
+        "de": "Kürzer pausieren; der Ton setzt von selbst wieder ein und kann erneut pausiert werden.",
+    },
+    {
+        "en": "See the server log.",
+        "de": "Im Protokoll des Servers nachsehen.",
+    },
+    {
+        "en": "Give a region in which there is bone, or another threshold.",
+        "de": "Einen Bereich angeben, in dem Knochen ist, oder eine andere Schwelle.",
+    },
+    {
+        "en": "Correct plan.screws in the config.",
+        "de": "plan.screws in den Einstellungen berichtigen.",
+    },
 )

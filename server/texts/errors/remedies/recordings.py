@@ -84,4 +84,18 @@ RECORDINGS: tuple[Text, ...] = (
         "en": "Check its address, as in tcp://host:8786, and that it runs.",
         "de": "Prüfen, ob die Adresse stimmt, etwa tcp://host:8786, und ob er läuft.",
     },
+    {
+        "en": "Check that its folder exists and its disk has free space, then try again.",
+        "de": "Prüfen, ob der Ordner existiert und die Platte Platz hat, dann erneut versuchen.",
+    },
+    {
+        "en": "Give a recording of Coaxial (.mcap).",
+        "de": "Eine Aufnahme von Coaxial (.mcap) angeben.",
+    },
+    {
+        "en": "Check the disk of the cases, then start the recording again. Navigation continues, and "
+        "the part written so far is readable.",
+        "de": "Die Platte der Fälle prüfen, dann die Aufnahme neu starten. Die Navigation läuft "
+        "weiter, und der bisher geschriebene Teil ist lesbar.",
+    },
 )

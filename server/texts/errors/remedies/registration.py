@@ -264,4 +264,21 @@ REGISTRATION: tuple[Text, ...] = (
         "de": "Eine Landmarke deutlich neben dieser Geraden hinzunehmen, etwa einen Querfortsatz, und neu "
         "registrieren.",
     },
+    {
+        "en": "Mark each needle again under its own name, or touch the entry of one with the tool's tip.",
+        "de": "Jede Nadel neu unter ihrem Namen markieren, oder den Eintritt von einer mit der Spitze "
+        "des Instruments antasten.",
+    },
+    {
+        "en": "Mark one needle each for {needles}, in this order.",
+        "de": "Je eine Nadel für {needles} markieren, in dieser Reihenfolge.",
+    },
+    {
+        "en": "Nudge in small steps, and register again where many would be needed.",
+        "de": "In kleinen Schritten korrigieren, und neu registrieren, wo viele nötig wären.",
+    },
+    {
+        "en": "Give the positions of the tip in mm, in the anchor's frame.",
+        "de": "Die Orte der Spitze in mm angeben, im Koordinatensystem des Ankers.",
+    },
 )

@@ -116,4 +116,22 @@ TOOL: tuple[Text, ...] = (
         "de": "Prüfen, dass beide Uhren echte Zeit zählen: keine Bilder mit nomineller Rate, keine "
         "verlorenen.",
     },
+    {
+        "en": "Give its name. Available markers: {markers}.",
+        "de": "Seinen Namen angeben. Verfügbare Marker: {markers}.",
+    },
+    {
+        "en": "Tracked markers: {markers}. Upload it on the camera's page.",
+        "de": "Verfolgte Marker: {markers}. Den Marker auf der Kameraseite hochladen.",
+    },
+    {
+        "en": "Tracked markers: {markers}. Add it under markers.",
+        "de": "Verfolgte Marker: {markers}. Den Marker unter markers hinzufügen.",
+    },
+    {
+        "en": "Give a PNG, JPEG or BMP image that the black square of the marker fills edge to edge, "
+        "row 0 at the top.",
+        "de": "Ein PNG-, JPEG- oder BMP-Bild angeben, das vom schwarzen Quadrat des Markers bis zum "
+        "Rand ausgefüllt wird, Zeile 0 oben.",
+    },
 )
