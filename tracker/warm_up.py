@@ -20,6 +20,7 @@ from tracker.photometric import refine_poses, textures_of
 from tracker.pipeline import Tracker
 from tracker.pipeline.warm_up_image import WarmUpImage, warm_up_image
 from tracker.plan import Channel, Surface
+from tracker.plan.pedicle import tube_model
 from tracker.plan.pedicle.wall_kernels import walls_around
 from tracker.rehearsal.layer_kernels import Axis, Portrait, composite, draw_body
 
@@ -58,6 +59,7 @@ def warm_up(*parts: Part) -> None:
                 _verify(model, picture, half_shadowed)
                 _judge()
                 _outline()
+                _pedicle()
                 _draw()
 
 
@@ -72,6 +74,13 @@ def _outline() -> None:
     """Compute the outline of a section through a block without bone."""
     block = np.zeros((2, 2, 2), np.float32)
     walls_around(block, np.zeros((1, 3)), np.ones((1, 1, 3)), 2, 1.0, 1, np.empty((1, 1)))
+
+
+def _pedicle() -> None:
+    """Compare one voxel with a round pedicle."""
+    one = tube_model.Samples(rows=np.ones((1, 7)), offsets=np.zeros((1, 3)), hu=np.zeros(1))
+    tube_model.model_hu(np.zeros(tube_model.COUNT), one)
+    tube_model.wall_distance_mm(np.zeros(tube_model.COUNT), np.zeros(1), np.zeros((1, 2)))
 
 
 def _draw() -> None:

@@ -17,7 +17,7 @@ from tests.benchmarks.sections import SECTIONS
 from tracker.errors import NavigationError
 
 # Sections whose tables state what was measured.
-ALONE = dict.fromkeys(("calibration", "ct", "pedicles"), "")
+ALONE = dict.fromkeys(("boards", "calibration", "ct", "pedicles"), "")
 
 
 def main(arguments: list[str] | None = None) -> None:

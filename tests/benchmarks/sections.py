@@ -6,6 +6,7 @@ from tests.benchmarks import accuracy, live, timing
 from tests.benchmarks.alarms.good_drilling import good_drilling_table, stationary_drill_table
 from tests.benchmarks.alarms.latency import breach_table
 from tests.benchmarks.calibration.coverage import measure_calibration
+from tests.benchmarks.calibration.rendered_coverage import measure_rendered_calibration
 from tests.benchmarks.ct_reading import measure_ct_reading
 from tests.benchmarks.ct_upload import measure_ct_upload
 from tests.benchmarks.figures import Figure, Share, size_of
@@ -132,6 +133,11 @@ def measure_ct(options: BenchmarkOptions) -> SectionResult:
     return SectionResult(tables=[*measure_ct_reading(), *measure_ct_upload(options)])
 
 
+def measure_boards(_options: BenchmarkOptions) -> SectionResult:
+    """Measure the calibration from rendered boards against its truth."""
+    return measure_rendered_calibration()
+
+
 def measure_phantoms(_options: BenchmarkOptions) -> SectionResult:
     """Measure pedicles of CT phantoms against their truth."""
     return measure_pedicles()
@@ -158,6 +164,7 @@ SECTIONS: dict[str, Callable[[BenchmarkOptions], SectionResult]] = {
     "alarms": measure_alarms,
     "ct": measure_ct,
     "calibration": measure_calibration,
+    "boards": measure_boards,
     "pedicles": measure_phantoms,
     "recording": measure_recording,
 }

@@ -330,6 +330,20 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "de": "der engste Querschnitt von der angetippten Stelle aus ist {width_mm:.1f} x "
             "{height_mm:.1f} mm, und {second}; beide müssten gleich sein",
         },
+        {
+            "en": "on the axis bone seems to end {front_mm:.0f} mm in front of the isthmus, but beside the "
+            "axis the body reaches {chord_mm:.0f} mm (allowed difference {allowed_mm:.0f} mm): the front "
+            "wall was not found",
+            "de": "auf der Achse scheint der Knochen {front_mm:.0f} mm vor dem Isthmus zu enden, neben der "
+            "Achse reicht der Wirbelkörper aber {chord_mm:.0f} mm weit (erlaubter Unterschied "
+            "{allowed_mm:.0f} mm): die Vorderwand wurde nicht gefunden",
+        },
+        {
+            "en": "from entry to front wall the axis runs {length_mm:.1f} mm in bone ({min_mm:.0f} to "
+            "{max_mm:.0f} mm are possible): entry, front wall or direction are mistaken",
+            "de": "vom Eintritt bis zur Vorderwand verläuft die Achse {length_mm:.1f} mm im Knochen "
+            "({min_mm:.0f} bis {max_mm:.0f} mm sind möglich): Eintritt, Vorderwand oder Richtung sind falsch",
+        },
     ),
     "PEDICLE_NOT_FOUND": (
         {

@@ -63,9 +63,18 @@ def _drawn_camera(rng: np.random.Generator, coefficients: int) -> KnownCamera:
 
 
 def seen_view(
-    model: CameraModel, board: Board, rng: np.random.Generator, *, noise_px: float, parallel: bool = False
+    model: CameraModel,
+    board: Board,
+    rng: np.random.Generator,
+    *,
+    noise_px: float,
+    common_px: float = 0.0,
+    parallel: bool = False,
 ) -> BoardView:
-    """Return a random view of the board, tilted in any direction; points outside the image are dropped."""
+    """Return a random view of the board, tilted in any direction; points outside the image are dropped.
+
+    `common_px`: standard deviation of an error that neighbouring points share, over two pitches of the board.
+    """
     points = np.asarray(board.object_points_mm)
     width, height = model.size_wh_px
     while True:
@@ -78,9 +87,19 @@ def seen_view(
         if inside.mean() < 0.75:
             continue
         noisy = px + rng.normal(0.0, noise_px, px.shape)
+        if common_px > 0.0:
+            noisy += common_px * _common_error(points, rng)
         return BoardView(
             ids=np.flatnonzero(inside), object_points_mm=points[inside], image_points_px=noisy[inside]
         )
+
+
+def _common_error(points_mm: Array, rng: np.random.Generator) -> Array:
+    """Return a smooth random field (n, 2) of unit variance over the board's points."""
+    squared = ((points_mm[:, None] - points_mm[None]) ** 2).sum(axis=2)
+    pitch_mm = float(np.sqrt(np.where(squared > 0.0, squared, np.inf).min()))
+    correlation = np.exp(-squared / (2.0 * (2.0 * pitch_mm) ** 2)) + 1e-6 * np.eye(len(points_mm))
+    return np.asarray(np.linalg.cholesky(correlation) @ rng.normal(size=(len(points_mm), 2)))
 
 
 def _pose(

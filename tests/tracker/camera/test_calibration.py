@@ -11,6 +11,8 @@ from tests.benchmarks.calibration.cameras import BOARD, KnownCamera, known_camer
 from tests.tracker.camera.rendered import CAMERA, POSES, picture
 from tracker.camera import CheckerBoard, DotBoard
 from tracker.camera.calibration import CalibrationReport, CalibrationSettings, calibrate
+from tracker.camera.calibration.blocks import Block
+from tracker.camera.calibration.uncertainty import uncertainty
 from tracker.camera.detection import BoardView, find_board
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array
@@ -84,6 +86,27 @@ def test_errors_that_are_alike_within_a_view_widen_the_intervals(
     assert report.is_noise_correlated
     assert report.parameter("fx").degrees_of_freedom == len(views) - 1
     assert report.parameter("fx").sd > 2.0 * calibrated(views, camera).parameter("fx").sd
+
+
+def test_a_correlation_too_weak_to_be_detected_widens_the_intervals() -> None:
+    rng = np.random.default_rng(5)
+    jacobians = rng.normal(size=(6, 100, 3))
+    pulls = rng.normal(0.0, 40.0, (6, 3))
+    views = [
+        Block(
+            information=one.T @ one,
+            gradient=pull - pulls.mean(axis=0),
+            squares_px2=100.0,
+            coordinates=100,
+            own=6,
+        )
+        for one, pull in zip(jacobians, pulls, strict=True)
+    ]
+    quiet = [replace(one, gradient=np.zeros(3)) for one in views]
+    wide = np.diag(uncertainty(views, is_noise_correlated=False).covariance)
+    narrow = np.diag(uncertainty(quiet, is_noise_correlated=False).covariance)
+    assert (wide > 2.0 * narrow).all()
+    assert (np.diag(uncertainty(views, is_noise_correlated=True).covariance) >= narrow).all()
 
 
 @pytest.mark.parametrize(

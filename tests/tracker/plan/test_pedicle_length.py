@@ -1,9 +1,15 @@
 """Start and end of a pedicle's length: at the arch, not a process; at the body, not a vessel."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
+from tracker.errors import PlanError
+from tracker.geometry import Array
 from tracker.plan import PedicleMeasure, measure_pedicle
+from tracker.plan.pedicle.length import WallAhead
+from tracker.plan.pedicle.rejections import reject_implausible_length
 from tracker.rehearsal.ct import (
     ContrastTube,
     Rod,
@@ -62,3 +68,60 @@ def test_a_vessel_that_touches_the_body_is_not_part_of_the_length(vessel_hu: flo
     one = measured(made)
     assert one.length_mm == pytest.approx(made.truth("left").length_mm, abs=1.2)
     assert any("touches the front wall" in warning for warning in one.warnings)
+
+
+def measured_with(made: VertebraPhantom, hu_at: Callable[[Array], Array]) -> PedicleMeasure:
+    grid = ScanGrid.around(
+        (0.0, -6.0, 0.0), size_mm=(64.0, 112.0, 44.0), spacing_mm=(1.5, 1.5, 1.5), noise_hu=20.0, blur_mm=0.3
+    )
+    return measure_pedicle(scan(hu_at, grid), made.seed_lps_mm("left"), "left")
+
+
+def with_void(made: VertebraPhantom, centre_mm: Array, radius_mm: float) -> Callable[[Array], Array]:
+    """The phantom with weak trabeculae in the body, as dark as fat, that a channel joins to its side."""
+
+    def hu_at(points: Array) -> Array:
+        hu = made.hu_at(points)
+        depth = -made.bone_distance_mm(points)
+        channel = (np.linalg.norm(points[:, 1:] - centre_mm[1:], axis=1) < 4.0) & (
+            points[:, 0] > centre_mm[0]
+        )
+        void = np.linalg.norm(points - centre_mm, axis=1) < radius_mm
+        hu[(channel | (void & (depth > made.cortex_mm))) & (depth > 0.0)] = -30.0
+        return hu
+
+    return hu_at
+
+
+@pytest.mark.parametrize("radius_mm", [5.0, 8.0])
+def test_the_front_wall_lies_behind_weak_trabeculae_that_open_to_the_side(radius_mm: float) -> None:
+    made = vertebra()
+    truth = made.truth("left")
+    void = with_void(made, truth.isthmus_lps_mm + 20.0 * truth.axis_lps, radius_mm)
+    assert measured_with(made, void).length_mm == pytest.approx(truth.length_mm, abs=2.5)
+
+
+def wall(distance_mm: float, *, chord_mm: float = 0.0) -> WallAhead:
+    return WallAhead(
+        distance_mm=distance_mm, found=True, outwards=UP / 60.0, faced_ratio=1.0, chord_mm=chord_mm
+    )
+
+
+@pytest.mark.parametrize(
+    ("front", "back", "message"),
+    [
+        pytest.param(wall(14.0), wall(8.0), r"22\.0 mm in bone \(25 to 75", id="short"),
+        pytest.param(wall(60.0), wall(20.0), r"80\.0 mm in bone", id="long"),
+        pytest.param(wall(22.0, chord_mm=36.0), wall(16.0), "body reaches 36 mm", id="dent"),
+    ],
+)
+def test_a_length_that_the_vertebra_contradicts_is_rejected(
+    front: WallAhead, back: WallAhead, message: str
+) -> None:
+    with pytest.raises(PlanError, match=message) as caught:
+        reject_implausible_length(front, back, 6.0)
+    assert caught.value.code == "PEDICLE_DOUBTFUL"
+
+
+def test_a_front_wall_at_the_outline_is_accepted() -> None:
+    reject_implausible_length(wall(34.0, chord_mm=36.0), wall(16.0), 6.0)

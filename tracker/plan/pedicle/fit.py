@@ -5,6 +5,7 @@ it. A fit that models the voxel's box locates it to a tenth of a voxel. Rays pro
 It takes a second per click.
 """
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,6 +31,7 @@ SETTLED, MORE_ROUNDS, MIN_WAIST = 0.15, 2, 0.02
 MAX_MISFIT_RATIO = 0.04
 OUTSIDE_BAND_MM = 1.2
 MIN_VOXELS = 60
+MAX_PART_MM = 0.8
 COARSE_SD_DEG = 4.0
 # Scale of the robust loss: bone is not homogeneous.
 MIN_SCALE_HU, SCALE_RATIO = 12.0, 0.06
@@ -45,8 +47,8 @@ class FittedBar:
     Attributes:
         origin_mm: (3,), LPS; axis, left and up are unit (3,).
         half_mm: half the length of the window.
-        parameters: (26,), see `tube_model`.
-        covariance: (26, 26).
+        parameters: (27,), see `tube_model`.
+        covariance: (27, 27).
         residual_hu: robust standard deviation of the residuals.
         misfit_ratio: residual beyond noise as a ratio of the contrast of bone: deviation from the bar model.
         fitted: whether the fit converged; if not, these are the coarse values.
@@ -169,7 +171,7 @@ def _first_parameters(near: Neighbourhood, bar: Bar) -> Array:
     out[tube_model.CORTEX] = max(near.cortex_hu, centre)
     out[tube_model.THICKNESS] = np.log(1.2)
     out[tube_model.MARROW] = centre
-    out[tube_model.BLUR] = np.log(_usual_blur_mm(near))
+    out[tube_model.BLURS] = np.log(_usual_blur_mm(near))
     out[tube_model.OUTSIDE.start] = near.tissue_hu
     return out
 
@@ -203,16 +205,39 @@ def _samples(
     a, b = np.exp(parameters[tube_model.AXES][:2])
     normal = np.stack([np.cos(angle) / a, np.sin(angle) / b], axis=1)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    beside = np.stack([-normal[:, 1], normal[:, 0]], axis=1)
     roll = parameters[tube_model.AXES][2]
     turn = np.array([[np.cos(roll), np.sin(roll)], [-np.sin(roll), np.cos(roll)]])
-    direction = (normal @ turn) @ frame[1:]
-    box = (near.voxel_width_mm(direction) ** 2).sum(axis=1) / 12.0
-    band = OUTSIDE_BAND_MM + 2.2 * np.sqrt(box + np.exp(2.0 * parameters[tube_model.BLUR]))
+    sides_mm, beside_mm = (near.voxel_width_mm((way @ turn) @ frame[1:]) for way in (normal, beside))
+    box_mm2 = (sides_mm**2).sum(axis=1) / 12.0
+    parts, offsets = _parts(near, frame, half)
+    sides_mm, beside_mm = sides_mm / parts, beside_mm / parts
+    part_mm2 = (sides_mm**2).sum(axis=1) / 12.0
+    widest_mm = sides_mm.max(axis=1)
+    slices = np.cross(near.lps_from_index[:3, 0], near.lps_from_index[:3, 1])
+    through = ((normal @ turn) @ frame[1:] @ (slices / np.linalg.norm(slices))) ** 2
+    band = OUTSIDE_BAND_MM + 2.2 * np.sqrt(box_mm2 + np.exp(2.0 * parameters[tube_model.BLUR]))
     used = (np.abs(along) <= 1.0) & (distance < band) & ~_open(bar, points)
     rows = np.flatnonzero(used)
     if len(rows) > max_samples:
         rows = np.random.default_rng(1).choice(rows, max_samples, replace=False)
-    return tube_model.Samples(along=along[rows], across_mm=local[rows, 1:], hu=hu[rows], box_mm2=box[rows])
+    columns = [along, local[:, 1], local[:, 2], widest_mm, part_mm2 - widest_mm**2 / 12.0]
+    columns += [(beside_mm**2).sum(axis=1) / 12.0, through]
+    return tube_model.Samples(
+        rows=np.ascontiguousarray(np.stack(columns, axis=1)[rows]), offsets=offsets, hu=hu[rows]
+    )
+
+
+def _parts(near: Neighbourhood, frame: Array, half: float) -> tuple[Array, Array]:
+    """Return in how many parts the sides of a voxel are divided (3,), and the offsets of all parts (k, 3).
+
+    Within a part, the wall is a plane edge with a small curvature.
+    """
+    sides = near.lps_from_index[:3, :3]
+    parts = np.ceil(np.linalg.norm(sides, axis=0) / MAX_PART_MM).astype(int)
+    steps = np.meshgrid(*((np.arange(n) + 0.5) / n - 0.5 for n in parts), indexing="ij")
+    offsets = np.stack([step.ravel() for step in steps], axis=1) @ sides.T @ frame.T
+    return parts, np.ascontiguousarray(offsets / [half, 1.0, 1.0])
 
 
 def _voxels(near: Neighbourhood, origin: Array, half: float) -> tuple[Array, Array]:
@@ -254,8 +279,13 @@ def _solve(
     scale = max(MIN_SCALE_HU, near.noise_hu, SCALE_RATIO * (near.cortex_hu - near.tissue_hu))
     centre, width = _expected(near, start, slopes)
 
+    # The solver asks for residuals and derivatives at the same place, one after the other.
+    @functools.lru_cache(maxsize=1)
+    def modelled(parameters: bytes) -> tuple[Array, Array]:
+        return tube_model.model_hu(np.frombuffer(parameters).copy(), samples)
+
     def residuals(parameters: Array) -> Array:
-        fit = (tube_model.model_hu(parameters, samples) - samples.hu) / scale
+        fit = (modelled(parameters.tobytes())[0] - samples.hu) / scale
         off = (parameters - centre) / width
         # The robust loss discounts large residuals. For a wall thinner than the blur only the product of
         # density and thickness is observable, so this transformation makes the loss of their priors
@@ -263,16 +293,23 @@ def _solve(
         off[WALL] *= np.sqrt(1.0 + 0.25 * off[WALL] ** 2)
         return np.concatenate([fit, off])
 
+    def derivatives(parameters: Array) -> Array:
+        off = (parameters[WALL] - centre[WALL]) / width[WALL]
+        prior = 1.0 / width
+        prior[WALL] *= (1.0 + 0.5 * off**2) / np.sqrt(1.0 + 0.25 * off**2)
+        return np.concatenate([modelled(parameters.tobytes())[1] / scale, np.diag(prior)])
+
     low, high = _bounds(start)
     result = scipy.optimize.least_squares(
         residuals,
         np.clip(start, low + 1e-6, high - 1e-6),
+        jac=derivatives,
         bounds=(low, high),
         loss="soft_l1",
         x_scale=np.minimum(width, 50.0),
         max_nfev=max_steps,
     )
-    left = tube_model.model_hu(result.x, samples) - samples.hu
+    left = tube_model.model_hu(result.x, samples)[0] - samples.hu
     residual = float(1.4826 * np.median(np.abs(left)))
     information = result.jac.T @ result.jac
     spread = max(residual, 2.0) / scale
@@ -307,7 +344,7 @@ def _expected(near: Neighbourhood, start: Array, slopes: Array) -> tuple[Array, 
     width[tube_model.CORTEX] = max(0.25 * (near.cortex_hu - near.tissue_hu), 30.0)
     centre[tube_model.THICKNESS], width[tube_model.THICKNESS] = np.log(1.3), 0.7
     centre[tube_model.MARROW], width[tube_model.MARROW] = start[tube_model.MARROW], 400.0
-    centre[tube_model.BLUR], width[tube_model.BLUR] = np.log(_usual_blur_mm(near)), 0.6
+    centre[tube_model.BLURS], width[tube_model.BLURS] = np.log(_usual_blur_mm(near)), 0.6
     centre[tube_model.OUTSIDE] = [near.tissue_hu, 0.0, 0.0, 0.0, 0.0]
     width[tube_model.OUTSIDE] = [300.0, 150.0, 150.0, 100.0, 100.0]
     return centre, width
@@ -323,7 +360,7 @@ def _bounds(start: Array) -> tuple[Array, Array]:
     low[tube_model.GROWTH], high[tube_model.GROWTH] = -0.7, 1.5
     low[tube_model.SHAPE], high[tube_model.SHAPE] = -0.2, 0.2
     low[tube_model.THICKNESS], high[tube_model.THICKNESS] = np.log(0.25), np.log(8.0)
-    low[tube_model.BLUR], high[tube_model.BLUR] = np.log(0.05), np.log(1.5)
+    low[tube_model.BLURS], high[tube_model.BLURS] = np.log(0.05), np.log(1.5)
     return low, high
 
 

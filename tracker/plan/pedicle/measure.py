@@ -14,6 +14,7 @@ from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.plausibility import (
     agrees,
     beyond_medial_wall_mm,
+    coarsest_mm,
     is_beside_canal,
     max_beyond_mm,
     medial_wall_mm,
@@ -51,6 +52,8 @@ TURNED_DEG = 1.0
 MAX_OFF_COURSE_DEG, MAX_TURN_DEG = 32.0, 25.0
 MIN_ASIDE_MM = 1.0
 MAX_MOVE_MM, MAX_GROWTH = 3.0, 1.25
+# A body's outline is convex to this depth.
+MAX_DENT_MM = 4.0
 # Offset of the second start if the first is already at the isthmus.
 AGAIN_MM = -2.0
 
@@ -216,6 +219,7 @@ def _record(
 ) -> PedicleMeasure:
     front = front_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     back = back_wall(near, solid, isthmus.centre_mm, isthmus.axis)
+    rejections.reject_implausible_length(front, back, MAX_DENT_MM + coarsest_mm(near))
     voxel = float(np.linalg.norm(near.voxel_width_mm(isthmus.axis)))
     warnings += fit_remarks(near, solid, bar, fitted, isthmus) + length_remarks(front, back)
     warnings += front_remarks(front)

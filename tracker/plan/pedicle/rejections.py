@@ -7,6 +7,7 @@ from tracker.errors import InvalidInput, PlanError
 from tracker.geometry import Array
 from tracker.plan.pedicle import tube_model
 from tracker.plan.pedicle.fit import FittedBar
+from tracker.plan.pedicle.length import WallAhead
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import angles
 from tracker.plan.pedicle.search import Bar
@@ -17,6 +18,8 @@ AIR_HU = -300.0
 MAX_BESIDE_MM = 1.0
 MAX_ASPECT = 3.5
 WIDTH_MM, HEIGHT_MM = (1.5, 26.0), (2.0, 32.0)
+LENGTH_MM = (25.0, 75.0)
+BY_HAND = "Click again, nearer to the middle of the pedicle; or give its numbers by hand."
 CLICK = "Click into the middle of the pedicle, on a slice that shows it joined to body and arch."
 
 
@@ -185,6 +188,31 @@ def reject_without_canal(isthmus: Isthmus, beyond_mm: float, allowed_mm: float) 
             "centre": _formatted(isthmus.centre_mm),
         },
     )
+
+
+def reject_implausible_length(front: WallAhead, back: WallAhead, allowed_dent_mm: float) -> None:
+    """Reject a length that the vertebra's shape contradicts: PEDICLE_DOUBTFUL.
+
+    A front wall far behind the outline on both sides of the axis is a gap in weak trabeculae.
+    """
+    if front.found and front.distance_mm < front.chord_mm - allowed_dent_mm:
+        raise PlanError(
+            "PEDICLE_DOUBTFUL",
+            f"on the axis bone seems to end {front.distance_mm:.0f} mm in front of the isthmus, but beside "
+            f"the axis the body reaches {front.chord_mm:.0f} mm (allowed difference {allowed_dent_mm:.0f} mm)"
+            ": the front wall was not found",
+            BY_HAND,
+            {"front_mm": front.distance_mm, "chord_mm": front.chord_mm, "allowed_mm": allowed_dent_mm},
+        )
+    length_mm = front.distance_mm + back.distance_mm
+    if front.found and back.found and not LENGTH_MM[0] <= length_mm <= LENGTH_MM[1]:
+        raise PlanError(
+            "PEDICLE_DOUBTFUL",
+            f"from entry to front wall the axis runs {length_mm:.1f} mm in bone ({LENGTH_MM[0]:.0f} to "
+            f"{LENGTH_MM[1]:.0f} mm are possible): entry, front wall or direction are mistaken",
+            BY_HAND,
+            {"length_mm": length_mm, "min_mm": LENGTH_MM[0], "max_mm": LENGTH_MM[1]},
+        )
 
 
 def disagreeing(one: Isthmus, other: Isthmus | None) -> PlanError:

@@ -9,7 +9,6 @@ from tracker.plan.pedicle.search import Bar
 from tracker.plan.pedicle.section import Isthmus
 from tracker.plan.pedicle.solid import Solid
 
-USUAL_LENGTH_MM = (25.0, 75.0)
 FEW_VOXELS = 5.0
 # Above this influence of the anatomical prior on the angle, a warning is given.
 USUAL_RATIO = 0.1
@@ -98,10 +97,4 @@ def length_remarks(front: WallAhead, back: WallAhead) -> list[str]:
         out.append("no front wall was found with certainty; the length ends where bone may end, check it")
     if not back.found:
         out.append("no bone surface was found behind; entry and length extend to the end of the visible part")
-    length = front.distance_mm + back.distance_mm
-    if front.found and back.found and not USUAL_LENGTH_MM[0] <= length <= USUAL_LENGTH_MM[1]:
-        out.append(
-            f"a length of {length:.1f} mm is unusual "
-            f"({USUAL_LENGTH_MM[0]:.0f} to {USUAL_LENGTH_MM[1]:.0f} mm are usual); check entry and front wall"
-        )
     return out

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from tracker.geometry import Array
+from tracker.plan.pedicle.tube_kernels import model_with_jacobian, walls_at
 
 # Order of the parameters.
 CENTRE = slice(0, 6)  # x then y, each constant, slope and bend over the window
@@ -14,7 +14,9 @@ GROWTH = slice(9, 13)  # width then height, each slope and bend over the window
 SHAPE = slice(13, 17)  # cos 3, sin 3, cos 4, sin 4 of the outline
 CORTEX, THICKNESS, MARROW, BLUR = 17, 18, 19, 20
 OUTSIDE = slice(21, 26)  # mean, cos, sin, cos 2, sin 2 around the outline
-COUNT = 26
+SLICE_BLUR = 26  # across the slices, where BLUR is within them
+BLURS = [BLUR, SLICE_BLUR]
+COUNT = 27
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,16 +24,17 @@ class Samples:
     """Voxels in the pedicle's frame.
 
     Attributes:
-        along: (n,), from -1 to 1 over the window.
-        across_mm: (n, 2), to the left and up.
+        rows: (n, 7), by column: place along the bar from -1 to 1 over the window; position to the left and
+            up, in mm; of each part of the voxel, largest side across the nearest wall, in mm, the variance of
+            its other sides, and the one along that wall in the section, in mm2; squared cosine between the
+            wall's normal and that of the slices.
+        offsets: (k, 3), of the parts of a voxel from its centre: along, to the left and up, as in `rows`.
         hu: (n,).
-        box_mm2: (n,), variance of a voxel's box along the direction of the nearest wall.
     """
 
-    along: Array
-    across_mm: Array
+    rows: Array
+    offsets: Array
     hu: Array
-    box_mm2: Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,51 +62,19 @@ def section_at(parameters: Array, along: Array) -> Section:
 
 def wall_distance_mm(parameters: Array, along: Array, across_mm: Array) -> tuple[Array, Array]:
     """Return the distance (n,) to the outer wall, negative inside, and the polar angle (n,) in rad."""
-    section = section_at(parameters, along)
-    x, y = across_mm[:, 0] - section.x_mm, across_mm[:, 1] - section.y_mm
-    roll = parameters[AXES][2]
-    u, v = np.cos(roll) * x + np.sin(roll) * y, np.cos(roll) * y - np.sin(roll) * x
-    a, b = section.half_width_mm, section.half_height_mm
-    angle = np.arctan2(v, u)
-    around = np.arctan2(v / b, u / a)
-    c3, s3, c4, s4 = parameters[SHAPE]
-    bump = (
-        1.0
-        + c3 * np.cos(3 * around)
-        + s3 * np.sin(3 * around)
-        + c4 * np.cos(4 * around)
-        + s4 * np.sin(4 * around)
-    )
-    q = np.sqrt((u / a) ** 2 + (v / b) ** 2)
-    slope = np.sqrt((u / (a * a)) ** 2 + (v / (b * b)) ** 2) / np.maximum(q, 1e-6)
-    distance = (q - bump) / np.maximum(slope, 0.5 / np.maximum(a, b))
+    distance, angle = np.empty(len(along)), np.empty(len(along))
+    walls_at(parameters, along, np.ascontiguousarray(across_mm), distance, angle)
     return distance, angle
 
 
-def model_hu(parameters: Array, samples: Samples) -> Array:
-    """Return the modelled HU of each voxel (n,): outside, cortex and marrow, blurred by voxel and scanner."""
-    distance, angle = wall_distance_mm(parameters, samples.along, samples.across_mm)
-    sigma = np.sqrt(samples.box_mm2 + np.exp(2.0 * parameters[BLUR]))
-    outside = outside_hu(parameters, angle)
-    cortex, marrow = parameters[CORTEX], parameters[MARROW]
-    thickness = np.exp(parameters[THICKNESS])
-    into_wall, into_core = (
-        scipy.special.ndtr(-distance / sigma),
-        scipy.special.ndtr(-(distance + thickness) / sigma),
-    )
-    return np.asarray(outside + (cortex - outside) * into_wall + (marrow - cortex) * into_core)
+def model_hu(parameters: Array, samples: Samples) -> tuple[Array, Array]:
+    """Return the modelled HU of each voxel (n,) and its derivatives (n, 27).
 
-
-def outside_hu(parameters: Array, angle: Array) -> Array:
-    """Return the HU of the surrounding tissue, which depends on the polar angle."""
-    o = parameters[OUTSIDE]
-    return np.asarray(
-        o[0]
-        + o[1] * np.cos(angle)
-        + o[2] * np.sin(angle)
-        + o[3] * np.cos(2 * angle)
-        + o[4] * np.sin(2 * angle)
-    )
+    Outside, cortex and marrow, blurred by voxel and scanner; the wall is as curved as the outline.
+    """
+    hu, jacobian = np.empty(len(samples.hu)), np.empty((len(samples.hu), COUNT))
+    model_with_jacobian(parameters, samples.rows, samples.offsets, hu, jacobian)
+    return hu, jacobian
 
 
 def outline(parameters: Array, along: float, count: int = 180) -> Array:
@@ -111,15 +82,14 @@ def outline(parameters: Array, along: float, count: int = 180) -> Array:
     section = section_at(parameters, np.array([along]))
     around = 2.0 * np.pi * np.arange(count) / count
     c3, s3, c4, s4 = parameters[SHAPE]
+    a, b = section.half_width_mm[0], section.half_height_mm[0]
+    c, s = np.cos(around), np.sin(around)
+    speed_squared = (a * s) ** 2 + (b * c) ** 2
     bump = (
-        1.0
-        + c3 * np.cos(3 * around)
-        + s3 * np.sin(3 * around)
-        + c4 * np.cos(4 * around)
-        + s4 * np.sin(4 * around)
+        c3 * np.cos(3 * around) + s3 * np.sin(3 * around) + c4 * np.cos(4 * around) + s4 * np.sin(4 * around)
     )
-    u = section.half_width_mm[0] * bump * np.cos(around)
-    v = section.half_height_mm[0] * bump * np.sin(around)
+    along_normal = bump * a * b / speed_squared
+    u, v = a * c + along_normal * b * c, b * s + along_normal * a * s
     roll = parameters[AXES][2]
     x = section.x_mm[0] + np.cos(roll) * u - np.sin(roll) * v
     y = section.y_mm[0] + np.sin(roll) * u + np.cos(roll) * v

@@ -232,6 +232,10 @@ PROCEDURE: tuple[Text, ...] = (
         "de": "Näher am Spinalkanal auf die Mitte des Pedikels tippen, oder seine Maße von Hand angeben.",
     },
     {
+        "en": "Click again, nearer to the middle of the pedicle; or give its numbers by hand.",
+        "de": "Erneut tippen, näher an der Mitte des Pedikels, oder seine Maße von Hand angeben.",
+    },
+    {
         "en": "Click into the pedicle's middle; use finer slices if there are any; or give its "
         "numbers by hand.",
         "de": "Auf die Mitte des Pedikels tippen, feinere Schichten verwenden, falls vorhanden, oder "

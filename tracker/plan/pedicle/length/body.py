@@ -17,9 +17,9 @@ EDGE_MM, LIFTS_MM = 1.5, (-1.5, 0.0, 1.5)
 # Weight of an edge, relative to the decrease of HU at a typical wall; higher with soft tissue outside.
 FAINT_EDGE, MIN_EDGE, MAX_EDGE, SOFT_BONUS = 0.3, 0.5, 1.5, 0.3
 MAX_STEPS, STEP_COST = 4, 0.15
-
-
 SLOPE_ANGLES = 3
+# Angles on both sides of the axis between which a chord of the outline is drawn, in steps of `TURN_DEG`.
+CHORD_ANGLES = range(5, 11)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,16 +27,19 @@ class OutlineFront:
     """Intersection of the body's outline with the axis.
 
     Attributes:
-        distance_mm: from the isthmus.
+        distance_mm: from the isthmus; None if no wall is visible on the axis.
         outwards: unit (3,), the outline's normal there, in its plane.
+        chord_mm: distance of the outermost chord between both sides of the axis. The front wall of a convex
+            body does not lie behind it.
     """
 
-    distance_mm: float
+    distance_mm: float | None
     outwards: Array
+    chord_mm: float
 
 
-def outline_front(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> OutlineFront | None:
-    """Return the anterior wall from the body's outline; None if no wall is visible on the axis.
+def outline_front(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> OutlineFront:
+    """Return the anterior wall from the body's outline.
 
     Rays run forwards and sideways from a point in the body, in the plane of the axis that is nearest to
     axial. The outline is the path over these rays with the strongest outer edges and the smallest steps
@@ -46,19 +49,31 @@ def outline_front(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> Outlin
     (across,), (up,) = planes_across(axis[None])
     edge, usable = _edges(near, isthmus_mm + CENTRE_MM * axis, axis, across, up)
     middle = len(edge) // 2
-    if not usable[middle].any():
-        return None
     path = _path(edge)
     row = int(path[middle])
-    if edge[middle, row] < MIN_EDGE:
-        return None
+    is_visible = bool(usable[middle].any()) and edge[middle, row] >= MIN_EDGE
     radius = MIN_MM + STEP_MM * path[middle - SLOPE_ANGLES : middle + SLOPE_ANGLES + 1]
     turn = np.radians(TURN_DEG) * np.arange(-SLOPE_ANGLES, SLOPE_ANGLES + 1)
     slope = float((turn * radius).sum() / (turn**2).sum())
     outwards = radius[SLOPE_ANGLES] * axis - slope * across
     return OutlineFront(
-        distance_mm=CENTRE_MM + MIN_MM + row * STEP_MM, outwards=outwards / np.linalg.norm(outwards)
+        distance_mm=CENTRE_MM + MIN_MM + row * STEP_MM if is_visible else None,
+        outwards=outwards / np.linalg.norm(outwards),
+        chord_mm=CENTRE_MM + _outermost_chord_mm(edge, path),
     )
+
+
+def _outermost_chord_mm(edge: Array, path: Array) -> float:
+    """Return where the outermost chord of the path crosses the middle ray; 0 without walls on both sides."""
+    middle = len(path) // 2
+    radius = MIN_MM + STEP_MM * path
+    is_clear = edge[np.arange(len(path)), path] >= MIN_EDGE
+    chords = [
+        2.0 * np.cos(np.radians(TURN_DEG * n)) / (1.0 / radius[middle - n] + 1.0 / radius[middle + n])
+        for n in CHORD_ANGLES
+        if is_clear[middle - n] and is_clear[middle + n]
+    ]
+    return max(chords, default=0.0)
 
 
 def _edges(

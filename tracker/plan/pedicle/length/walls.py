@@ -17,6 +17,8 @@ FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
 # Beyond an outer wall, most directions across the axis contain no bone nearby.
 GAP_BEYOND_MM = 2.0
 LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
+# For dark marrow that opens to a side. In front of a convex body, at most half of the rays meet bone.
+VOID_ENCLOSED_RATIO = 0.7
 # The wall is the profile fall within this distance of the end of the solid.
 NEAR_EXIT_MM = 4.0
 NO_FRONT_FROM_MM = 24.0
@@ -38,6 +40,7 @@ class WallAhead:
         faced_ratio: cosine between direction and normal: 1 at perpendicular incidence, 0 along the wall.
         beyond_mm: extent of bone-like voxels behind it: a process, or an adjacent vessel.
         sd_mm: of the distance, in addition to that of voxels and axis.
+        chord_mm: a front wall that lies behind this distance dents the body; 0 if not known.
     """
 
     distance_mm: float
@@ -46,6 +49,7 @@ class WallAhead:
     faced_ratio: float
     beyond_mm: float = 0.0
     sd_mm: float = 0.0
+    chord_mm: float = 0.0
 
 
 def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
@@ -53,16 +57,20 @@ def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array
 
     Where a contrast-filled vessel touches the body, the solid includes it, and the outline does not.
     """
-    exit_mm = _exit_mm(solid, isthmus_mm, axis, FRONT_FROM_MM)
+    exit_mm = _front_exit_mm(near, solid, isthmus_mm, axis)
     outline = outline_front(near, isthmus_mm, axis)
-    if outline is None or (exit_mm is not None and exit_mm <= outline.distance_mm):
-        return _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, exit_mm)
-    wall = _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, outline.distance_mm)
-    beyond_mm = (MAX_DISTANCE_MM if exit_mm is None else exit_mm) - outline.distance_mm
-    if beyond_mm <= NEAR_EXIT_MM:
-        return wall
-    faced = float(outline.outwards @ axis)
-    return replace(wall, outwards=outline.outwards, faced_ratio=faced, beyond_mm=beyond_mm)
+    at_mm = outline.distance_mm
+    if at_mm is not None and _is_in_void(near, isthmus_mm, axis, at_mm):
+        at_mm = None
+    if at_mm is None or (exit_mm is not None and exit_mm <= at_mm):
+        wall = _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, exit_mm)
+        return replace(wall, chord_mm=outline.chord_mm)
+    wall = _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, at_mm)
+    beyond_mm = (MAX_DISTANCE_MM if exit_mm is None else exit_mm) - at_mm
+    if beyond_mm > NEAR_EXIT_MM:
+        faced = float(outline.outwards @ axis)
+        wall = replace(wall, outwards=outline.outwards, faced_ratio=faced, beyond_mm=beyond_mm)
+    return replace(wall, chord_mm=outline.chord_mm)
 
 
 def back_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
@@ -134,6 +142,31 @@ def _exit_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) 
     return float(along[inside[-1]]) if len(inside) else None
 
 
+def _front_exit_mm(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> float | None:
+    """Return the exit of the axis from the solid in front, or None if it stays within the grid.
+
+    Weak trabeculae, as dark as soft tissue, that a thin wall does not close off are not part of the solid.
+    They are passed, because bone encloses the line behind its exit into them.
+    """
+    from_mm = FRONT_FROM_MM
+    while (exit_mm := _exit_mm(solid, isthmus_mm, axis, from_mm)) is not None:
+        if not _is_in_void(near, isthmus_mm, axis, exit_mm):
+            return exit_mm
+        along = np.arange(exit_mm + GAP_BEYOND_MM, MAX_DISTANCE_MM, STEP_MM)
+        inside = np.flatnonzero(solid.depth_at(isthmus_mm + along[:, None] * axis) > 0.0)
+        if not len(inside):
+            return None
+        from_mm = float(along[inside[0]])
+    return None
+
+
+def _is_in_void(near: Neighbourhood, isthmus_mm: Array, axis: Array, distance_mm: float) -> bool:
+    """Return whether the line continues in soft tissue within bone: in dark marrow, and not in a vessel."""
+    beyond = _beyond(isthmus_mm, axis, distance_mm)
+    is_soft = bool((near.smooth_hu(beyond) < near.soft_below_hu).all())
+    return is_soft and _is_within_bone(near, beyond, axis, VOID_ENCLOSED_RATIO)
+
+
 def _skimming_sd_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) -> float:
     """Return the sd of the exit over parallel lines; large where the line grazes a surface."""
     (across,), (up,) = planes_across(direction[None])
@@ -190,13 +223,15 @@ def _beyond(isthmus_mm: Array, direction: Array, distance_mm: float) -> Array:
     return np.asarray(isthmus_mm + along[:, None] * direction)
 
 
-def _is_within_bone(near: Neighbourhood, points: Array, direction: Array) -> bool:
+def _is_within_bone(
+    near: Neighbourhood, points: Array, direction: Array, min_ratio: float = ENCLOSED_RATIO
+) -> bool:
     """Return whether bone encloses the line at each of these points (n, 3)."""
-    return all(_is_enclosed(near, point, direction) for point in points)
+    return all(_enclosed_ratio(near, point, direction) >= min_ratio for point in points)
 
 
-def _is_enclosed(near: Neighbourhood, point_mm: Array, direction: Array) -> bool:
-    """Return whether bone is met in most directions across the line."""
+def _enclosed_ratio(near: Neighbourhood, point_mm: Array, direction: Array) -> float:
+    """Return the share of the directions across the line in which bone is met."""
     (across,), (up,) = planes_across(direction[None])
     angle = angles(LOOK_RAYS)
     rays = np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * up
@@ -205,4 +240,4 @@ def _is_enclosed(near: Neighbourhood, point_mm: Array, direction: Array) -> bool
     # Thick slices reduce the contrast of an endplate.
     faint = near.tissue_hu + max(100.0, 0.25 * (near.cortex_hu - near.tissue_hu))
     bone = (near.smooth_hu(points) > faint) & near.contains(points)
-    return bool(bone.any(axis=1).mean() >= ENCLOSED_RATIO)
+    return float(bone.any(axis=1).mean())
