@@ -87,10 +87,15 @@ class SharedStatus:
                 self._played_scene = played_scene
 
     def set_running(self, generation: int) -> None:
-        """Mark the process of this generation as running. For the publisher."""
+        """Mark the process of this generation as running and reporting. For the publisher.
+
+        A problem ends here, with the report, and not at the supervisor's next check, which would be published
+        without an image.
+        """
         with self._lock:
             process = self._current.process
-            if self._current.generation == generation and process.state is not ProcessState.RUNNING:
+            is_other = process.state is not ProcessState.RUNNING or process.problem is not None
+            if self._current.generation == generation and is_other:
                 running = ProcessStatus(state=ProcessState.RUNNING, restarts=process.restarts)
                 self._current = ProcessView(process=running, generation=generation, ring=self._current.ring)
 

@@ -7,16 +7,27 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from server.config import Config
-from server.live import Instant, ProcessState
+from server.live import Instant, Problem, ProcessState, ProcessStatus
 from server.logs import LogSettings
 from server.loop.compiling import Progress
 from server.loop.processor_wait import ProcessorWait
 from server.loop.publisher import Publisher
+from server.loop.report import Report, ReportPacker
+from server.loop.ring import ImageRing
 from server.loop.shared_status import SharedStatus
 from server.loop.supervisor import Supervisor, Target, WatchdogSettings
 from server.loop.worker import WorkerOrder
 from server.setup import CaseSetup, nominal_camera
-from tests.server.loop.fake_workers import Seen, echoing_worker, failing_worker, silent_worker, steady_worker
+from tests.server.loop.fake_workers import (
+    Seen,
+    echoing_worker,
+    failing_worker,
+    made_image,
+    made_snapshot,
+    made_source,
+    silent_worker,
+    steady_worker,
+)
 
 COMPILED = Progress(done=3, total=3)
 
@@ -170,6 +181,35 @@ def test_a_process_that_waits_for_a_processor_is_named_and_not_killed() -> None:
         assert dead.process.problem.code == "TRACKING_PROCESS_ENDED"
     finally:
         stage.end()
+
+
+def test_the_first_image_after_a_starvation_ends_its_problem_and_stays_shown() -> None:
+    status = SharedStatus("made")
+    hub = Seen()
+    publisher = Publisher(status=status, hub=hub)
+    ring = ImageRing()
+    try:
+        packer = ReportPacker()
+        status.post(ProcessStatus(state=ProcessState.STARTING), ring)
+        for number in (0, 1):
+            report = Report(
+                source=made_source(number + 1), snapshot=made_snapshot(number), tracked_images=number + 1
+            )
+            ring.write(packer.pack(report), made_image(number))
+            publisher.publish_newest()
+            shown = hub.instants[-1]
+            assert shown.snapshot is not None
+            assert shown.process.problem is None
+            # As the supervisor does when it finds a report again.
+            status.set_problem(None)
+            publisher.publish_newest()
+            assert hub.instants[-1] is shown
+            if number == 0:
+                status.set_problem(Problem(code="TRACKING_STARVED", message="starved", remedy="wait"))
+                publisher.publish_newest()
+                assert hub.instants[-1].is_stopped
+    finally:
+        ring.close()
 
 
 def test_a_process_that_always_fails_is_given_up_and_tried_again_later(
