@@ -130,9 +130,8 @@ class PointsSession:
     def status(self) -> PointsStatus:
         """Progress of the session."""
         with self._lock:
-            self._take_over()
+            capture = self._take_over()
             touched, left_out = dict(self._touched), set(self._left_out)
-            capture = None if self._capture is None else self._capture.status
             from_s = min(self._from_s.values(), default=None)
         landmarks = tuple(
             LandmarkMeasurement(
@@ -179,10 +178,13 @@ class PointsSession:
         self._last_fit = landmarks, fit, problem
         return fit, problem
 
-    def _take_over(self) -> None:
-        """Store the point of a completed capture, and stop a capture that has ended."""
+    def _take_over(self) -> CaptureStatus | None:
+        """Store the point of a completed capture, stop a capture that has ended, and return its status.
+
+        It is read once: a capture that completes between two reads would be reported without its point.
+        """
         if self._capture is None:
-            return
+            return None
         status = self._capture.status
         if status.state is not CaptureState.LOOKING:
             self._capture.stop()
@@ -190,6 +192,7 @@ class PointsSession:
             self._touched[status.landmark] = status.touched
             if status.from_s is not None:
                 self._from_s[status.landmark] = status.from_s
+        return status
 
     def _reject_untouched(self, landmark: str) -> None:
         if landmark not in self._touched:
