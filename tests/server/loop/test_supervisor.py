@@ -183,7 +183,10 @@ def test_a_process_that_waits_for_a_processor_is_named_and_not_killed() -> None:
         stage.end()
 
 
-def test_the_first_image_after_a_starvation_ends_its_problem_and_stays_shown() -> None:
+def test_the_first_image_after_a_starvation_ends_its_problem_and_stays_shown(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("server.loop.publisher.HEARTBEAT_S", 600.0)
     status = SharedStatus("made")
     hub = Seen()
     publisher = Publisher(status=status, hub=hub)
