@@ -7,7 +7,7 @@ before, and for seconds. A bump is faster, or farther, or stays.
 """
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -124,13 +124,15 @@ class ReferenceMonitor:
         is_fast = self._is_fast(np.concatenate([shift, turn]), at_s)
         if moved_mm > self._settings.max_mm or rotated_deg > self._settings.max_deg:
             self._images += 1
-            before = self._excursion
-            self._excursion = _Excursion(
-                began_s=at_s if before is None else before.began_s,
+            before = self._excursion or _Excursion(
+                began_s=at_s, last_s=at_s, max_mm=0.0, max_deg=0.0, is_fast=False
+            )
+            self._excursion = replace(
+                before,
                 last_s=at_s,
-                max_mm=max(moved_mm, 0.0 if before is None else before.max_mm),
-                max_deg=max(rotated_deg, 0.0 if before is None else before.max_deg),
-                is_fast=is_fast or (before is not None and before.is_fast),
+                max_mm=max(before.max_mm, moved_mm),
+                max_deg=max(before.max_deg, rotated_deg),
+                is_fast=before.is_fast or is_fast,
             )
         else:
             self._end_excursion()
@@ -146,8 +148,9 @@ class ReferenceMonitor:
         """Return the state of a reference that is displaced before a still scene."""
         if not self._may_be_breath(now):
             return ReferenceState.MOVED
-        limits = self._settings
-        known = [one for one in self._breaths if now.last_s - one.last_s <= limits.memory_s]
+        limits, known = self._settings, self._breaths
+        while known and now.last_s - known[0].last_s > limits.memory_s:
+            known.popleft()
         if len(known) < limits.min_breaths:
             return ReferenceState.SWAYING
         deepest_mm = max(limits.max_mm, *(one.max_mm for one in known))
@@ -170,8 +173,6 @@ class ReferenceMonitor:
         ended = self._excursion
         if ended is not None and self._images >= self._settings.confirm_images and self._may_be_breath(ended):
             self._breaths.append(ended)
-            while ended.last_s - self._breaths[0].last_s > self._settings.memory_s:
-                self._breaths.popleft()
         self._excursion, self._images = None, 0
 
     def _is_fast(self, displacement: Array, at_s: float) -> bool:
