@@ -68,8 +68,8 @@ class SharedStatus:
             self._current = ProcessView(process=process, generation=generation, ring=ring)
         self.wake()
 
-    def set_problem(self, problem: Problem | None) -> None:
-        """Set why the process does not report although it runs; None for nothing. For the supervisor."""
+    def set_problem(self, problem: Problem) -> None:
+        """Set why the process does not report although it runs. For the supervisor."""
         with self._lock:
             process = replace(self._current.process, problem=problem)
             self._current = replace(self._current, process=process)
@@ -89,15 +89,13 @@ class SharedStatus:
     def set_running(self, generation: int) -> None:
         """Mark the process of this generation as running and reporting. For the publisher.
 
-        A problem ends here, with the report, and not at the supervisor's next check, which would be published
-        without an image.
+        With a report the problem of a process that did not report is over.
         """
         with self._lock:
-            process = self._current.process
-            is_other = process.state is not ProcessState.RUNNING or process.problem is not None
-            if self._current.generation == generation and is_other:
-                running = ProcessStatus(state=ProcessState.RUNNING, restarts=process.restarts)
-                self._current = ProcessView(process=running, generation=generation, ring=self._current.ring)
+            current = self._current
+            if current.generation == generation:
+                running = ProcessStatus(state=ProcessState.RUNNING, restarts=current.process.restarts)
+                self._current = replace(current, process=running)
 
     def wake(self) -> None:
         """Wake the publisher."""

@@ -212,7 +212,7 @@ class Supervisor:
         pid = process.pid or 0
         waiting = self._processor_wait(pid)
         seen_s = checked_s = time.monotonic()
-        starved_s, is_starved = 0.0, False
+        starved_s = 0.0
         while True:
             ready = wait([process.sentinel, self._wakeup_reader], timeout=self._watchdog.poll_interval_s)
             if process.sentinel in ready:
@@ -226,24 +226,20 @@ class Supervisor:
             if ring.written_at_s > seen_s:
                 seen_s, starved_s = ring.written_at_s, 0.0
             silent_s = now_s - seen_s
-            was_starved = is_starved
-            is_starved = silent_s > self._watchdog.starved_after_s and starved_s > silent_s / 2
-            if is_starved:
-                self._show_starvation(pid, silent_s, starved_s, is_first=not was_starved)
-            elif was_starved:
-                self._status.set_problem(None)
+            if silent_s > self._watchdog.starved_after_s and starved_s > silent_s / 2:
+                self._report_starvation(pid, silent_s, starved_s)
             limit_s = self._watchdog.silent_after_s if ring.images else self._watchdog.first_image_after_s
             if silent_s - starved_s > limit_s:
                 return _problem(f"sent nothing for {silent_s:.1f} s, limit {limit_s:g} s", pid=pid)
 
-    def _show_starvation(self, pid: int, silent_s: float, starved_s: float, *, is_first: bool) -> None:
+    def _report_starvation(self, pid: int, silent_s: float, starved_s: float) -> None:
+        """Show that the process is starved, until its next report, and raise its priority."""
         problem = _starved(silent_s, starved_s)
         self._status.set_problem(problem)
-        if is_first:
-            raise_process_priority(pid)
-            if self._clock() - self._starvation_logged_s > STARVATION_LOG_PERIOD_S:
-                self._starvation_logged_s = self._clock()
-                log.warning(problem.message, code=problem.code, remedy=problem.remedy)
+        raise_process_priority(pid)
+        if self._clock() - self._starvation_logged_s > STARVATION_LOG_PERIOD_S:
+            self._starvation_logged_s = self._clock()
+            log.warning(problem.message, code=problem.code, remedy=problem.remedy)
 
     def _end(self, process: ForkServerProcess) -> None:
         if self._stop.is_set():

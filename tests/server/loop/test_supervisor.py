@@ -203,8 +203,6 @@ def test_the_first_image_after_a_starvation_ends_its_problem_and_stays_shown(
             shown = hub.instants[-1]
             assert shown.snapshot is not None
             assert shown.process.problem is None
-            # As the supervisor does when it finds a report again.
-            status.set_problem(None)
             publisher.publish_newest()
             assert hub.instants[-1] is shown
             if number == 0:
