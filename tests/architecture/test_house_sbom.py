@@ -15,6 +15,8 @@ from typing import Any
 import jsonschema_rs
 import pytest
 
+from tests.house.traced import guide_rows
+
 ROOT = Path(__file__).parents[2]
 SCHEMAS = "http://cyclonedx.org/schema/"
 # Only builds the page, but part of what it writes runs there.
@@ -127,12 +129,7 @@ def test_it_names_no_registry_and_no_folder(bill: dict[str, Any]) -> None:
 
 def rows_of_soup() -> dict[str, list[str]]:
     """Cells of each table row in the guide, by package."""
-    text = (ROOT / "docs/guide/soup.md").read_text(encoding="utf-8")
-    rows = [
-        [cell.strip() for cell in line.strip("|").split("|")]
-        for line in re.findall(r"^\|.+\|$", text, re.MULTILINE)
-    ]
-    return {row[0]: row[1:] for row in rows if row[0] != "package" and not row[0].startswith("-")}
+    return {package: cells for package, *cells in guide_rows("soup", column="package")}
 
 
 def direct_dependencies() -> set[str]:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.house import traced
-from tests.house.traced import main, traced_rows
+from tests.house.traced import main, passed_tests, traced_rows
 
 STRIDE = set("STRIDE")
 
@@ -56,3 +56,18 @@ def test_a_row_without_its_evidence_is_reported(
     reported = capsys.readouterr().out
     assert missing in reported
     assert reported.endswith("1 rows, 1 without evidence\n")
+
+
+def test_a_test_that_was_skipped_or_fails_for_one_parameter_has_not_passed(tmp_path: Path) -> None:
+    (tmp_path / "test_made.py").write_text(
+        "import pytest\n"
+        "def test_good(): pass\n"
+        "def test_bad(): assert False\n"
+        "@pytest.mark.skip\n"
+        "def test_skipped(): pass\n"
+        "@pytest.mark.parametrize('n', [1, 2])\n"
+        "def test_of_each(n): assert n < 2\n",
+        encoding="utf-8",
+    )
+    passed = passed_tests([f"{tmp_path}/test_made.py", f"--rootdir={tmp_path}"])
+    assert passed == {"test_made.py::test_good"}

@@ -6,12 +6,13 @@ python -m tests.house.traced [--run]: prints each row with what is missing; with
 import argparse
 import ast
 import re
-import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+
+import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 TEST = re.compile(r"`(tests/[\w/]+\.py)::(\w+)`")
@@ -48,20 +49,21 @@ class TracedRow:
 
 def traced_rows(page: str) -> list[TracedRow]:
     """Return the rows of all tables with a column `test` of a page of the guide."""
+    return [TracedRow(page=page, cells=cells) for cells in guide_rows(page, column="test")]
+
+
+def guide_rows(page: str, *, column: str) -> Iterator[tuple[str, ...]]:
+    """Yield the cells of each row of the tables with this column of a page of the guide."""
     text = (ROOT / f"docs/guide/{page}.md").read_text(encoding="utf-8")
-    return [TracedRow(page=page, cells=cells) for cells in _table_rows(text)]
-
-
-def _table_rows(text: str) -> Iterator[tuple[str, ...]]:
-    is_traced = False
+    is_wanted = False
     for line in text.splitlines():
         if not line.startswith("|"):
-            is_traced = False
+            is_wanted = False
             continue
         cells = tuple(cell.strip() for cell in line.strip("|").split("|"))
-        if "test" in cells:
-            is_traced = True
-        elif is_traced and not set("".join(cells)) <= {"-", ":"}:
+        if column in cells:
+            is_wanted = True
+        elif is_wanted and not set("".join(cells)) <= {"-", ":"}:
             yield cells
 
 
@@ -73,10 +75,32 @@ def _functions(path: Path) -> frozenset[str]:
     return frozenset(node.name for node in tree.body if isinstance(node, ast.FunctionDef))
 
 
-def _passes(test: str) -> bool:
-    # In a process of its own: a row is judged by its test alone.
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", test]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, check=False).returncode == 0
+class _Outcomes:
+    """A plug-in of pytest that collects which tests passed; one that was skipped has not."""
+
+    def __init__(self) -> None:
+        self._passed: set[str] = set()
+        self._failed: set[str] = set()
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Take the outcome of a part of a test, for all of its parameters."""
+        test = report.nodeid.partition("[")[0]
+        if report.failed:
+            self._failed.add(test)
+        elif report.when == "call" and report.passed:
+            self._passed.add(test)
+
+    @property
+    def passed(self) -> set[str]:
+        """Node ids of the tests of which nothing failed."""
+        return self._passed - self._failed
+
+
+def passed_tests(tests: Sequence[str]) -> set[str]:
+    """Run tests in this process, and return those that passed."""
+    outcomes = _Outcomes()
+    pytest.main(["-q", "--tb=no", "-p", "no:cacheprovider", *tests], plugins=[outcomes])
+    return outcomes.passed
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -86,13 +110,15 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     untraced = 0
     rows = [row for page in ("hazards", "threats") for row in traced_rows(page)]
+    passed = (
+        passed_tests([test for row in rows if not row.missing for test in row.tests]) if given.run else set()
+    )
     for row in rows:
         state = f"missing: {', '.join(row.missing)}" if row.missing else "traced"
         if given.run and not row.missing:
-            state = "passed" if all(map(_passes, row.tests)) else "FAILED"
+            state = "passed" if passed.issuperset(row.tests) else "FAILED"
         untraced += state not in {"traced", "passed"}
         sys.stdout.write(f"{state:8} {row.page}: {' | '.join(filter(None, row.cells))}\n")
-        sys.stdout.flush()
     sys.stdout.write(f"{len(rows)} rows, {untraced} without evidence\n")
     return 1 if untraced else 0
 
