@@ -51,14 +51,14 @@ SLOW = {
     "decoding": """
         const decode = window.createImageBitmap.bind(window);
         window.createImageBitmap = async (...options) => {
-          await new Promise((done) => setTimeout(done, 150));
+          if (window.slow) await new Promise((done) => setTimeout(done, 150));
           return decode(...options);
         };
     """,
     "drawing": """
         const draw = ImageBitmapRenderingContext.prototype.transferFromImageBitmap;
         ImageBitmapRenderingContext.prototype.transferFromImageBitmap = function (...options) {
-          if (this.canvas.className === "sharp") {
+          if (window.slow && this.canvas.className === "sharp") {
             for (const until = performance.now() + 150; performance.now() < until; );
           }
           return draw.apply(this, options);
@@ -76,10 +76,12 @@ def theatre(theatre: Theatre) -> Theatre:
 
 
 def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
-    """The page after all reductions."""
+    """The page after all reductions. It becomes slow once its scene is drawn, which on a busy machine takes seconds."""
     watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW[part]} }})()")
     page = watched.open(f"theatre{query}")
     show_scene(page)
+    page.wait_for_function("() => given.some(([what]) => what === 'scale')")
+    page.evaluate("slow = true")
     page.wait_for_function("() => given.some(([what]) => what === 'largest')")
     return page
 
