@@ -15,7 +15,7 @@ from tracker.rehearsal import Phase
 
 SETTINGS = {
     **BUSY_MACHINE,
-    "rehearsal": {"seed": 3, "provides_setup": False, "reference": True, "rest_s": 1.6},
+    "rehearsal": {"rate_hz": 12, "seed": 3, "provides_setup": False, "reference": True, "rest_s": 1.6},
     "reference": {"marker": "reference"},
 }
 CONFIG = Config.model_validate(SETTINGS)

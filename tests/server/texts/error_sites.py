@@ -4,6 +4,7 @@ import ast
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -26,15 +27,15 @@ class ErrorSite:
     names: frozenset[str] | None
 
 
-def error_sites() -> Iterator[ErrorSite]:
-    """Yield all places in tracker and server at which an error with a literal code is made.
+@cache
+def error_sites() -> tuple[ErrorSite, ...]:
+    """Return all places in tracker and server at which an error with a literal code is made.
 
     Errors of the command line are left out: no page shows them, and it is in English.
     """
-    for folder in ("server", "tracker"):
-        for path in sorted((ROOT / folder).rglob("*.py")):
-            if "cli" not in path.relative_to(ROOT).parts:
-                yield from _sites_in(path)
+    paths = [path for folder in ("server", "tracker") for path in sorted((ROOT / folder).rglob("*.py"))]
+    shown = [path for path in paths if "cli" not in path.relative_to(ROOT).parts]
+    return tuple(site for path in shown for site in _sites_in(path))
 
 
 def _sites_in(path: Path) -> Iterator[ErrorSite]:

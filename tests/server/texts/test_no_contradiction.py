@@ -12,7 +12,7 @@ from tracker.navigation import Verdict, assessment
 from tracker.navigation.alarms import AlarmState, Condition, Presence
 
 IMAGES = 500
-SEEDS = range(6)
+SEEDS = range(2)
 
 
 def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
