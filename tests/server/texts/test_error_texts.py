@@ -5,7 +5,7 @@ from string import Formatter
 
 import pytest
 
-from server.texts import Text, error_reason, reason_of_error
+from server.texts import error_reason, reason_of_error
 from server.texts.errors.catalogue import MESSAGES, REMEDIES
 from server.texts.errors.phrases import PHRASES
 from server.texts.steps import REASONS
