@@ -76,7 +76,7 @@ def theatre(theatre: Theatre) -> Theatre:
 
 
 def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
-    """The page after all reductions. It becomes slow once its scene is drawn, which on a busy machine takes seconds."""
+    """The page after all reductions. It is slow only once its scene is drawn."""
     watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW[part]} }})()")
     page = watched.open(f"theatre{query}")
     show_scene(page)
