@@ -8,7 +8,7 @@ from tests.benchmarks.scenes.rigs import RIGS
 from tests.tracker.levels import SEED
 
 # A sample; the benchmark searches more.
-EMPTY_IMAGES = {"A": 20, "B": 12}
+EMPTY_IMAGES = {"A": 4, "B": 2}
 
 
 @pytest.mark.parametrize("rig", EMPTY_IMAGES)

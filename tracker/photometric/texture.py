@@ -1,7 +1,7 @@
 """Prerendered textures of a marker at increasing Gaussian blur (a scale space)."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import cv2
 import numpy as np
@@ -24,6 +24,8 @@ REACH_RATIO = 0.8
 TEXEL_BLURS = 0.45
 # Quantisation of the steepness: it fits a byte, and thresholds are multiples of it.
 STEEPNESS = 200.0
+# A model has 16 MB of textures, and a theatre has two models.
+CACHED_MODELS = 4
 
 Texels = npt.NDArray[np.float32]
 
@@ -55,7 +57,16 @@ class Textures:
 
 
 def textures_of(square: npt.NDArray[np.uint8]) -> Textures:
-    """Render the textures of a grey square (n, n) that fills its marker edge to edge."""
+    """Return the textures of a grey square (n, n) that fills its marker edge to edge; cached.
+
+    They take a tenth of a second, which tracking would pause at each change of the set-up.
+    """
+    return _textures(square.tobytes(), square.shape[0])
+
+
+@lru_cache(maxsize=CACHED_MODELS)
+def _textures(pixels: bytes, side: int) -> Textures:
+    square = np.frombuffer(pixels, np.uint8).reshape(side, side)
     count = int(np.ceil(np.log(COARSEST_RATIO / SHARPEST_RATIO) / np.log(STEP))) + 1
     blurs = np.asarray(SHARPEST_RATIO * STEP ** np.arange(count), np.float64)
     picture, texel, has = _on_paper(square)

@@ -1,6 +1,7 @@
 """The simulated theatre: poses of camera, marker, drill, vertebra and needles at any time."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
@@ -98,6 +99,12 @@ class Truth:
     touched: str
 
 
+@lru_cache(maxsize=1)
+def drill_marker() -> MarkerModel:
+    """Return the printed marker of the drill ("drill", 25 mm)."""
+    return MarkerModel.from_image(drill_marker_image(), side_mm=MARKER_SIDE_MM, name="drill")
+
+
 class Theatre:
     """A simulated theatre, fully determined by its settings.
 
@@ -121,7 +128,7 @@ class Theatre:
         random = np.random.default_rng([settings.seed, 0x524F4F4D])
         self.settings = settings
         self.camera = _camera(settings, random)
-        self.marker = MarkerModel.from_image(drill_marker_image(), side_mm=MARKER_SIDE_MM, name="drill")
+        self.marker = drill_marker()
         self.tool = ToolModel.from_tip_and_axis(
             name="drill",
             marker="drill",

@@ -152,7 +152,7 @@ def test_the_square_of_a_marker_is_no_second_print_of_it() -> None:
     other = code_model(OTHER, name="other")
     tracker = Tracker(camera=CAMERA, models=[MODEL, other])
     background = cluttered(CAMERA, 3)
-    for k in range(3 * PERIOD_IMAGES):
+    for k in range(PERIOD_IMAGES + 2):
         pose = pose_of((120.0 + k, 180.0), roll_deg=3.0 * k)
         prints = [Print(picture=code_image(), pose=pose), Print(picture=code_image(OTHER), pose=THERE)]
         image = rendered(CAMERA, prints[: 1 + (k < 10)], background=background, seed=k)

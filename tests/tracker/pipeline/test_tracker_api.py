@@ -18,7 +18,8 @@ from tests.tracker.scenes import (
 )
 from tracker import InvalidInput, Seen, Tracker, Unseen, UnseenReason
 from tracker.geometry import Camera, Marker, Rigid
-from tracker.marker import MarkerModel, ScoreSettings
+from tracker.marker import MarkerModel, ScoreSettings, templates_of
+from tracker.photometric import textures_of
 from tracker.stage_timer import StageTimer
 from tracker.warm_up import warm_up
 
@@ -37,7 +38,7 @@ def _fingered(pose: Rigid[Camera, Marker], *, side: int, area_ratio: float, grey
 
 
 @pytest.mark.parametrize("side", range(4))
-@pytest.mark.parametrize("grey", [40, 120, 185])
+@pytest.mark.parametrize("grey", [40, 185])
 def test_a_finger_over_a_tenth_of_the_marker_does_not_hide_it(side: int, grey: int) -> None:
     pose = pose_of(side_px=64)
     found = seen(tracker_of().search(_fingered(pose, side=side, area_ratio=0.1, grey=grey))["code"])
@@ -45,8 +46,7 @@ def test_a_finger_over_a_tenth_of_the_marker_does_not_hide_it(side: int, grey: i
 
 
 @pytest.mark.parametrize("side", range(4))
-@pytest.mark.parametrize("grey", [40, 120, 185])
-@pytest.mark.parametrize("area_ratio", [0.15, 0.2, 0.3])
+@pytest.mark.parametrize(("grey", "area_ratio"), [(40, 0.2), (185, 0.3)])
 def test_a_covered_marker_is_where_it_is_or_unseen(side: int, grey: int, area_ratio: float) -> None:
     pose = pose_of(side_px=64)
     image = _fingered(pose, side=side, area_ratio=area_ratio, grey=grey)
@@ -106,6 +106,13 @@ def test_names_that_occur_twice_are_rejected() -> None:
     with pytest.raises(InvalidInput, match="2 markers have 1 names: code") as caught:
         Tracker(camera=CAMERA, models=[MODEL, code_model(OTHER, name="code")])
     assert caught.value.code == "MARKER_NAMES_NOT_UNIQUE"
+
+
+def test_templates_and_textures_of_a_picture_are_computed_once() -> None:
+    again = MarkerModel.from_image(MODEL.image, side_mm=30.0, name="again")
+    assert textures_of(again.square) is textures_of(MODEL.square)
+    assert templates_of([again]).each[0] is templates_of([MODEL]).each[0]
+    assert textures_of(code_model(OTHER).square) is not textures_of(MODEL.square)
 
 
 def test_without_models_there_are_no_sightings() -> None:

@@ -32,7 +32,7 @@ def lumbar() -> Volume:
     ("side", "clicks"),
     [
         pytest.param("left", ((9.4, -91.0, -788.5), (9.5, -90.0, -784.5)), id="left"),
-        pytest.param("right", ((-23.0, -89.0, -790.5), (-23.0, -92.0, -792.5)), id="right"),
+        pytest.param("right", ((-23.0, -89.0, -790.5),), id="right"),
     ],
 )
 def test_a_lower_thoracic_pedicle_runs_forwards_inside_the_bone(
@@ -53,9 +53,6 @@ def test_a_lower_thoracic_pedicle_runs_forwards_inside_the_bone(
     ("side", "click", "allowed_deg"),
     [
         pytest.param("right", (-10.5, -104.5, 385.0), (5.0, 16.0), id="L1-right"),
-        pytest.param("left", (24.0, -119.0, 352.0), (5.0, 17.0), id="L2-left"),
-        pytest.param("left", (24.0, -127.5, 318.0), (8.0, 21.0), id="L3-left"),
-        pytest.param("left", (27.5, -129.0, 282.0), (10.0, 25.0), id="L4-left"),
         pytest.param("left", (26.0, -120.0, 250.0), (18.0, 34.0), id="L5-left"),
     ],
 )

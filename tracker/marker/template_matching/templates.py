@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -33,6 +34,7 @@ COARSE_CELLS = 6
 FINE, SHIFT_SIDES = 4, 0.02
 # Damping of the refinement steps: the sum of squares of a template's cells, 1, times their noise ratio.
 DAMPING = np.float32(1.0)
+CACHED_MODELS = 32
 # Damping of deviations from a parallelogram, which perspective hardly causes.
 STIFFNESS = np.float32(10.0)
 # Depth of an occluding edge from the centre: 1 is the far side.
@@ -94,11 +96,14 @@ class Templates:
 
 
 def templates_of(models: Sequence[MarkerModel]) -> Templates:
-    """Compute the templates of models."""
-    return Templates(each=tuple(_template_of(model.square) for model in models))
+    """Return the templates of models; cached."""
+    squares = (model.square for model in models)
+    return Templates(each=tuple(_template_of(square.tobytes(), square.shape[0]) for square in squares))
 
 
-def _template_of(square: npt.NDArray[np.uint8]) -> Template:
+@lru_cache(maxsize=CACHED_MODELS)
+def _template_of(pixels: bytes, side: int) -> Template:
+    square = np.frombuffer(pixels, np.uint8).reshape(side, side)
     blurred = _blurred(square)
     upright = np.array([_sampled_cells(wide, np.zeros((4, 2))) for wide in blurred])
     grid = upright[list(MATCHED_BLURS)].reshape(-1, ROWS, ROWS)

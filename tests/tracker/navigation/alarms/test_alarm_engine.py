@@ -75,7 +75,7 @@ def test_a_breach_stays_in_sight_until_it_is_acknowledged_and_its_sound_stops_wh
     peak = picture.alarms[0].peak
     assert peak is not None
     assert peak.measure.value == -0.8
-    assert stream.images(600.0).alarms[0].state is AlarmState.LATCHED
+    assert stream.images(60.0).alarms[0].state is AlarmState.LATCHED
     assert stream.acknowledge().alarms == ()
     assert stream.events[-1].by == "surgeon"
 

@@ -18,6 +18,7 @@ from tracker.navigation.alarms.rules import ALARM_RULES, AlarmRule, Condition, K
 
 N, A, K, L = AlarmState.NORMAL, AlarmState.ACTIVE, AlarmState.ACKNOWLEDGED, AlarmState.LATCHED
 SHOWS = Evidence(presence=Presence.YES)
+HALF = Measure(value=0.5, limit=0.0, unit="mm")
 
 
 def made(state: AlarmState, *, showing_s: float = inf, gone_s: float = inf) -> Occurrence:
@@ -72,12 +73,21 @@ def test_each_state_with_each_evidence(
     assert over.state is ended
 
 
+@pytest.mark.parametrize("state", [N, L], ids=str)
+def test_a_presence_that_ends_unconfirmed_leaves_nothing(state: AlarmState) -> None:
+    pending = Occurrence(
+        state=state,
+        present_since_s=99.9,
+        present_images=1,
+        pending_peak=Peak(measure=HALF, severity=0.5, at_s=99.9),
+    )
+    traits = trait(latches=True, persists_when_unknown=True)
+    assert advanced(pending, GONE, traits, StepContext(at_s=100.0)) == Occurrence(state=state)
+
+
 @pytest.mark.parametrize(("state", "becomes"), [(N, N), (A, K), (K, K), (L, N)], ids=str)
 def test_each_state_when_it_is_acknowledged(state: AlarmState, becomes: AlarmState) -> None:
     assert acknowledged(made(state), by="surgeon").state is becomes
-
-
-HALF = Measure(value=0.5, limit=0.0, unit="mm")
 
 
 def test_only_what_is_acknowledged_and_clearly_worse_sounds_again() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array, rotation_from_vector
-from tracker.pose.tool import Poses
+from tracker.pose.tool import Poses, pivot_calibration
 
 TIP_MM = (4.0, -120.0, -6.0)
 PIVOT_MM = (30.0, -20.0, 500.0)
@@ -108,3 +108,32 @@ def spun(
     for index in range(outliers):
         rotations[index] = rotation_from_vector(random.normal(size=3) * 0.4) @ rotations[index]
     return Poses(rotations=rotations, translations_mm=np.array(PIVOT_MM) - rotations @ (TIP_MM[1] * -AXIS))
+
+
+HANDS = {
+    "noise like a ball": Hand(shift_sd_mm=0.2, turn_sd_deg=(0.0, 0.0, 0.0)),
+    "noise of angles": Hand(shift_sd_mm=0.02, turn_sd_deg=(0.3, 0.3, 0.3)),
+    "one camera": Hand(shift_sd_mm=0.03, depth_sd_mm=0.3, turn_sd_deg=(0.3, 0.3, 0.05)),
+    "a fifth outliers": Hand(outlier_ratio=0.2),
+    "long pointer tilted little": Hand(
+        count=80, tip_mm=(-14.0, 390.0, -7.0), tilts_deg=(18.0, 18.0), pivot_mm=(-800, -80, 2100)
+    ),
+    "few poses": Hand(count=16),
+    "tip at the marker's centre": Hand(tip_mm=(0.0, 0.0, 0.5)),
+    "stated covariances": Hand(
+        count=40, shift_sd_mm=0.03, depth_sd_mm=0.3, turn_sd_deg=(0.3, 0.3, 0.05), outlier_ratio=0.1
+    ),
+}
+# Hands whose poses come with their covariance.
+STATED = ("stated covariances",)
+
+
+def squared_errors(hand: Hand, *, runs: int, states_covariance: bool = False) -> list[float]:
+    """Squared errors of the calibrated tip in units of the stated covariance."""
+    squared = []
+    for seed in range(runs):
+        made = pivoted(hand, seed=1000 + seed, states_covariance=states_covariance)
+        found = pivot_calibration(made.poses)
+        off = found.tip_in_marker_mm - made.tip_mm
+        squared.append(float(off @ np.linalg.solve(found.tip_covariance_mm2, off)))
+    return squared

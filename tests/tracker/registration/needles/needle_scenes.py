@@ -5,9 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.geometry import Array, Camera, Rigid, Vertebra, rotation_from_vector
+from tracker.geometry import Array, Camera, Rigid, Vertebra, rotation_from_vector, vector_from_rotation
 from tracker.plan import Landmark
 from tracker.registration.needles import (
+    NeedleFit,
+    NeedleLimits,
     NeedleObservation,
     PlannedNeedle,
     RulerMeasurement,
@@ -15,6 +17,7 @@ from tracker.registration.needles import (
     ViewPrior,
     needle_from_clicks,
     planned_at_landmarks,
+    register_needles,
     view_prior_from_ruler,
 )
 from tracker.registration.needles.observation import OCCLUDED_MM, OCCLUDED_SD_MM
@@ -108,3 +111,25 @@ def _turn(one: Array, other: Array) -> Array:
     axis = np.cross(one, other)
     sine = float(np.linalg.norm(axis))
     return rotation_from_vector(axis / max(sine, 1e-12) * np.arctan2(sine, float(one @ other)))
+
+
+# No limit rejects a fit: the covariance itself is tested.
+OPEN = NeedleLimits(
+    min_probability_ratio=1e-12, max_offset_mm=1e3, min_delta_chi2=0.0, max_swap_delta_chi2=1e3
+)
+
+
+def registered(given: Seen, limits: NeedleLimits | None = None) -> NeedleFit:
+    return register_needles(given.places, given.seen, CAMERA, given.view, limits=limits)
+
+
+def misfit(fit: NeedleFit, given: Seen) -> float:
+    """Squared Mahalanobis distance of the truth from the fit: 6 on average if calibrated."""
+    pose, truth = fit.registration.anchor_from_vertebra, given.camera_from_vertebra
+    off = np.concatenate(
+        [
+            pose.translation_mm - truth.translation_mm,
+            vector_from_rotation(pose.rotation @ truth.rotation.T),
+        ]
+    )
+    return float(off @ np.linalg.solve(fit.registration.covariance, off))
