@@ -14,19 +14,19 @@ class TooManyViewers(NavigationError):
                 "TOO_MANY_VIEWERS",
                 f"{watching} viewers are connected, the maximum is {maximum}",
                 "Close an unused view, or raise video.max_viewers in the settings.",
-                {"watching": watching, "most": maximum, "name": None},
+                {"watching": watching, "max_watching": maximum, "name": None},
             )
         else:
             super().__init__(
                 "TOO_MANY_VIEWERS",
                 f"{name} has {watching} open connections, the maximum per person is {maximum}",
                 "Close an unused page.",
-                {"watching": watching, "most": maximum, "name": name},
+                {"watching": watching, "max_watching": maximum, "name": name},
             )
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle by the constructor's arguments."""
-        return type(self), (self.context["watching"], self.context["most"], self.context["name"])
+        return type(self), (self.context["watching"], self.context["max_watching"], self.context["name"])
 
 
 class CameraUnknown(NavigationError):

@@ -86,12 +86,12 @@ ACCESS: Mapping[str, tuple[Text, ...]] = {
     ),
     "TOO_MANY_VIEWERS": (
         {
-            "en": "{watching} viewers are connected, the maximum is {most}",
-            "de": "{watching} Zuschauer sind verbunden, höchstens {most}",
+            "en": "{watching} viewers are connected, the maximum is {max_watching}",
+            "de": "{watching} Zuschauer sind verbunden, höchstens {max_watching}",
         },
         {
-            "en": "{name} has {watching} open connections, the maximum per person is {most}",
-            "de": "{name} hat {watching} offene Verbindungen, höchstens {most} je Person",
+            "en": "{name} has {watching} open connections, the maximum per person is {max_watching}",
+            "de": "{name} hat {watching} offene Verbindungen, höchstens {max_watching} je Person",
         },
     ),
     "CAMERA_UNKNOWN": (
