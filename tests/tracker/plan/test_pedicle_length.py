@@ -10,7 +10,9 @@ from tracker.errors import PlanError
 from tracker.geometry import Array
 from tracker.plan import PedicleMeasure, measure_pedicle
 from tracker.plan.pedicle.length import WallAhead
+from tracker.plan.pedicle.length.walls import _grazing_sd_mm
 from tracker.plan.pedicle.rejections import reject_implausible_length
+from tracker.plan.pedicle.solid import STEP_MM, Solid
 from tracker.rehearsal.ct import (
     ContrastTube,
     Rod,
@@ -128,3 +130,17 @@ def test_a_length_that_the_vertebra_contradicts_is_rejected(
 
 def test_a_front_wall_at_the_outline_is_accepted() -> None:
     reject_implausible_length(wall(34.0, chord_mm=36.0), wall(16.0), 6.0)
+
+
+@pytest.mark.parametrize(
+    ("faced_ratio", "sd_mm"),
+    [pytest.param(1.0, 0.0, id="at right angles"), pytest.param(0.2, 4.0, id="along the surface")],
+)
+def test_an_exit_along_a_surface_is_less_certain(faced_ratio: float, sd_mm: float) -> None:
+    """The end of a plane moved by a voxel of 1 mm to either side, beyond that of one met at right angles."""
+    direction = np.array([faced_ratio, np.sqrt(1.0 - faced_ratio**2), 0.0])
+    nodes = STEP_MM * np.arange(40)
+    depth = np.broadcast_to((20.0 * faced_ratio - nodes)[:, None, None], (40, 40, 40)).astype(np.float32)
+    solid = Solid(corner_mm=np.zeros(3), depth_mm=depth)
+    found = _grazing_sd_mm(solid, np.array([0.0, 0.0, 5.0]), direction, distance_mm=20.0, voxel_mm=1.0)
+    assert found == pytest.approx(sd_mm, abs=0.2)

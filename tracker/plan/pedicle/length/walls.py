@@ -10,6 +10,7 @@ from tracker.plan.pedicle.length.entry import arch_back_mm
 from tracker.plan.pedicle.length.profile import MAX_DISTANCE_MM, STEP_MM, behind_steps, falls, profile_along
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import angles, planes_across
+from tracker.plan.pedicle.plausibility import coarsest_mm
 from tracker.plan.pedicle.solid import Solid
 
 # Minimum distance of the front wall from the isthmus.
@@ -26,7 +27,6 @@ NO_FRONT_FROM_MM = 24.0
 LEFT_DEPTH_MM, LEFT_FROM_MM, LEFT_FOR_MM = 1.0, 0.3, 2.0
 # Bone that extends this far behind the arch is a process; its end is uncertain by more than a voxel.
 PROCESS_MM, ARCH_SD_MM = 2.5, 1.5
-BESIDE_SHARE = 0.4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,7 +126,7 @@ def _wall(
         found=found,
         outwards=outwards,
         faced_ratio=float(outwards @ direction),
-        sd_mm=_skimming_sd_mm(solid, isthmus_mm, direction, from_mm),
+        sd_mm=_grazing_sd_mm(solid, isthmus_mm, direction, distance, coarsest_mm(near)),
     )
 
 
@@ -167,12 +167,24 @@ def _is_in_void(near: Neighbourhood, isthmus_mm: Array, axis: Array, distance_mm
     return is_soft and _is_within_bone(near, beyond, axis, VOID_ENCLOSED_RATIO)
 
 
-def _skimming_sd_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) -> float:
-    """Return the sd of the exit over parallel lines; large where the line grazes a surface."""
-    (across,), (up,) = planes_across(direction[None])
-    beside = [_exit_mm(solid, isthmus_mm + way, direction, from_mm) for way in (across, -across, up, -up)]
-    ends = [one for one in beside if one is not None]
-    return BESIDE_SHARE * float(np.std(ends)) if len(ends) > 1 else 0.0
+def _grazing_sd_mm(
+    solid: Solid, isthmus_mm: Array, direction: Array, distance_mm: float, voxel_mm: float
+) -> float:
+    """Return the sd of an exit that the line approaches along a surface, as of the arch beside a facet.
+
+    The surface of the solid is uncertain by up to a voxel, and a narrower recess is filled. Moved by a voxel,
+    it ends the line elsewhere; the range beyond that of a wall met at right angles is the uncertainty.
+    """
+    along = np.arange(0.0, MAX_DISTANCE_MM, STEP_MM)
+    depth = solid.depth_at(isthmus_mm + along[:, None] * direction)
+    exit_step = min(round(distance_mm / STEP_MM), len(along) - 1)
+    level_mm = min(voxel_mm, 0.5 * float(depth[: exit_step + 1].max()))
+    inside = np.flatnonzero(depth[: exit_step + 1] >= level_mm)
+    outside = np.flatnonzero(depth[exit_step:] <= -level_mm)
+    if not len(inside) or not len(outside):
+        return 0.0
+    range_mm = (exit_step + int(outside[0]) - int(inside[-1])) * STEP_MM
+    return max(0.0, 0.5 * range_mm - level_mm)
 
 
 def _fall_near(near: Neighbourhood, isthmus_mm: Array, direction: Array, exit_mm: float) -> float:
