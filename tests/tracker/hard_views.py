@@ -18,8 +18,10 @@ from tracker.geometry import Array, Rigid, rotation_from_vector
 SUBPIXEL_BITS = 4
 
 
-def some_scene(random: np.random.Generator, face: Face, seed: int) -> Scene:
-    pose = pose_of(random, float(random.choice(SIDES_PX)), (0.0, 55.0))
+def some_scene(
+    random: np.random.Generator, face: Face, seed: int, *, tilts_deg: tuple[float, float] = (0.0, 55.0)
+) -> Scene:
+    pose = pose_of(random, float(random.choice(SIDES_PX)), tilts_deg)
     return scene_at(RIG, face, BASE, (pose,), seed=seed)
 
 
@@ -125,9 +127,7 @@ def leaning(seed: int, face: Face, trackers: Trackers) -> Shown:
 def with_a_side_covered(seed: int, face: Face, trackers: Trackers) -> Shown:
     """Something straight over one side, nearly along it."""
     random = np.random.default_rng([seed, 3])
-    scene = scene_at(
-        RIG, face, BASE, (pose_of(random, float(random.choice(SIDES_PX)), (0.0, 55.0)),), seed=seed
-    )
+    scene = some_scene(random, face, seed)
     corners = np.roll(scene.corners_px, int(random.integers(4)), axis=0)
     along, inwards = corners[1] - corners[0], corners[3] - corners[0]
     ends = [corners[0] - 2.0 * along, corners[0] + 3.0 * along]
@@ -142,9 +142,7 @@ def with_a_side_covered(seed: int, face: Face, trackers: Trackers) -> Shown:
 def interlaced(seed: int, face: Face, trackers: Trackers) -> Shown:
     """Every other line is of a moment later."""
     random = np.random.default_rng([seed, 4])
-    scene = scene_at(
-        RIG, face, BASE, (pose_of(random, float(random.choice(SIDES_PX)), (0.0, 45.0)),), seed=seed
-    )
+    scene = some_scene(random, face, seed, tilts_deg=(0.0, 45.0))
     image = image_of(scene)
     # The truth is in the middle of both.
     shift = int(random.integers(1, 3))

@@ -72,15 +72,16 @@ def _ellipses(labels: npt.NDArray[Any], candidates: Indices) -> _Ellipses:
     index = index_of[labels]
     y, x = np.nonzero(index >= 0)
     index = index[y, x]
-    counts = np.bincount(index, minlength=len(candidates))
-    centres = np.stack([_sums(index, x, counts), _sums(index, y, counts)], axis=1) / counts[:, None]
+    count = len(candidates)
+    counts = np.bincount(index, minlength=count)
+    centres = np.stack([_sums(index, x, count), _sums(index, y, count)], axis=1) / counts[:, None]
     dx, dy = x - centres[index, 0], y - centres[index, 1]
-    xx, xy, yy = (_sums(index, product, counts) / counts for product in (dx * dx, dx * dy, dy * dy))
+    xx, xy, yy = (_sums(index, product, count) / counts for product in (dx * dx, dx * dy, dy * dy))
     # The variance of a square pixel is added.
     moments = np.stack([xx, xy, xy, yy], axis=1).reshape(-1, 2, 2) + np.eye(2) / 12.0
     small, large = np.sqrt(np.linalg.eigvalsh(moments)).T
     squares = _squares(moments, index, dx, dy)
-    inside_ratios = _sums(index, squares <= 4.0, counts) / counts
+    inside_ratios = _sums(index, squares <= 4.0, count) / counts
     area_ratios = counts / (4.0 * np.pi * small * large)
     is_ellipse = (
         (small >= MIN_AXES_RATIO * large)
@@ -88,7 +89,7 @@ def _ellipses(labels: npt.NDArray[Any], candidates: Indices) -> _Ellipses:
         & (area_ratios > MIN_OVERLAP_RATIO)
         & (area_ratios < 1.0 / MIN_OVERLAP_RATIO)
     )
-    fourths = _sums(index, squares**2, counts) * counts / _sums(index, squares, counts) ** 2
+    fourths = _sums(index, squares**2, count) * counts / _sums(index, squares, count) ** 2
     return _Ellipses(centres[is_ellipse], moments[is_ellipse], fourths[is_ellipse])
 
 
@@ -128,19 +129,19 @@ def _measured(grey: GreyImage, ellipses: _Ellipses) -> tuple[Array, Array, Array
     ring = spot[is_ring]
     ring_counts = np.bincount(ring, minlength=count)
     columns = (np.ones(len(ring)), dx[is_ring], dy[is_ring])
-    normal = np.stack([[_sums(ring, a * b, ring_counts) for b in columns] for a in columns])
-    right = np.stack([_sums(ring, a * value[is_ring], ring_counts) for a in columns])
+    normal = np.stack([[_sums(ring, a * b, count) for b in columns] for a in columns])
+    right = np.stack([_sums(ring, a * value[is_ring], count) for a in columns])
     # A ring that the image's border cuts to a line does not determine the plane.
     ground = np.einsum("nij,jn->ni", np.linalg.pinv(normal.transpose(2, 0, 1), hermitian=True), right)
     depression = ground[spot, 0] + ground[spot, 1] * dx + ground[spot, 2] * dy - value
     residual = depression[is_ring]
     with np.errstate(invalid="ignore", divide="ignore"):
-        residual = residual - (_sums(ring, residual, ring_counts) / ring_counts)[ring]
-        noise = np.sqrt(_sums(ring, residual**2, ring_counts) / ring_counts)
+        residual = residual - (_sums(ring, residual, count) / ring_counts)[ring]
+        noise = np.sqrt(_sums(ring, residual**2, count) / ring_counts)
         depth = _medians(spot[is_core], depression[is_core], count)
         weight = np.where(beyond < 1.5, depression / depth[spot], 0.0)
-        area = np.bincount(spot, weight, count)
-        moved = np.stack([np.bincount(spot, weight * d, count) for d in (dx, dy)], axis=1) / area[:, None]
+        area = _sums(spot, weight, count)
+        moved = np.stack([_sums(spot, weight * d, count) for d in (dx, dy)], axis=1) / area[:, None]
         is_spot = (
             (ring_counts >= MIN_RING_PIXELS)
             & (depth >= np.maximum(MIN_CONTRAST, 2.0 * noise))
@@ -157,9 +158,9 @@ def _squares(moments: Array, index: Indices, dx: Array, dy: Array) -> Array:
     return np.asarray(dx * (xx * dx + xy * dy) + yy * dy * dy, dtype=np.float64)
 
 
-def _sums(index: Indices, values: npt.NDArray[np.generic], counts: Indices) -> Array:
-    """Return the sum of the values of each index."""
-    return np.asarray(np.bincount(index, values, len(counts)), dtype=np.float64)
+def _sums(index: Indices, values: npt.NDArray[np.generic], count: int) -> Array:
+    """Return the sum of the values of each of `count` indices."""
+    return np.asarray(np.bincount(index, values, count), dtype=np.float64)
 
 
 def _medians(index: Indices, values: Array, count: int) -> Array:

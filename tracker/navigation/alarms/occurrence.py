@@ -108,10 +108,9 @@ def advanced(was: Occurrence, evidence: Evidence, trait: AlarmRule, moment: Step
         return _advance_raised(was, evidence, trait, moment)
     shows = evidence.presence is Presence.YES
     is_open = (evidence.presence is Presence.UNKNOWN and trait.persists_when_unknown) or evidence.superseded
-    waits = was.present_since_s < inf and is_open
-    if not (shows or waits):
+    is_pending = was.present_since_s < inf
+    if not (shows or (is_pending and is_open)):
         # Most conditions at most steps: none is present, and a copy of each would cost more than all else.
-        is_pending = was.present_since_s < inf
         return replace(was, present_since_s=inf, present_images=0, pending_peak=None) if is_pending else was
     since_s = min(was.present_since_s, moment.at_s)
     images = was.present_images + (1 if shows and moment.new_image else 0)
