@@ -13,7 +13,7 @@ from typing import IO
 from mcap.opcode import Opcode
 
 from server.recording_file.packing import Packing
-from server.recording_file.reader import NANOSECONDS, TOPICS, RecordingReader
+from server.recording_file.reader import NANOSECONDS, TOPICS, RecordingReader, known_packing
 from server.recording_file.topics import Topic
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -128,7 +128,7 @@ class MessageLocations:
             key, at = _text(content, at)
             metadata[key], at = _text(content, at)
         size = int(metadata["width_px"]), int(metadata["height_px"])
-        self._channels[number] = _Channel(topic, Packing(encoding), size)
+        self._channels[number] = _Channel(topic, known_packing(self._path, encoding), size)
 
 
 def read_duration_s(path: Path) -> float | None:

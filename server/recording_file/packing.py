@@ -1,15 +1,16 @@
 """Images in a recording: the JPEG of the source if it has one, otherwise losslessly compressed pixels.
 
-Measured for 1280x720 on one core with camera noise: PNG at its fastest takes 47 ms for 1.1 MB, Zstandard at
-level 1 4.4 ms for 2.1 MB, at level 3 19 ms for 1.8 MB. At 30 Hz only level 1 takes about a tenth of a core.
-Of grey images, whose three channels are equal, one channel is stored. `make benchmark ARGS=recording`
-measures it.
+Each row is stored as its difference from the row above (modulo 256), which leaves small values, and these are
+entropy-coded by Zstandard. Camera noise has no repetitions worth searching for, so the search is reduced to
+the minimum: that takes half the time of level 1 and less space. `make benchmark ARGS=recording` compares it
+with level 1 and with PNG. Of grey images, whose three channels are equal, one channel is stored.
 """
 
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeAlias
 
+import cv2
 import numpy as np
 import numpy.typing as npt
 import zstandard
@@ -18,7 +19,9 @@ from server.image_file import decoded
 
 Image: TypeAlias = npt.NDArray[np.uint8]
 
-LEVEL = 1
+# Level 1 with the smallest hash table and the longest minimum of a match. Negative levels, which also search
+# less, do not entropy-code what has no match.
+COMPRESSION = zstandard.ZstdCompressionParameters.from_level(1, hash_log=6, min_match=7)
 MAX_IMAGE_BYTES = 7680 * 4320 * 3
 
 
@@ -26,8 +29,8 @@ class Packing(StrEnum):
     """Encoding of an image."""
 
     JPEG = "jpeg"  # JPEG of the source
-    ZSTD_BGR = "zstd-bgr8"  # rows of blue, green, red
-    ZSTD_GREY = "zstd-grey8"  # one of three equal channels
+    ZSTD_BGR = "zstd-row-differences-bgr8"  # blue, green, red
+    ZSTD_GREY = "zstd-row-differences-grey8"  # one of three equal channels
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,19 +57,19 @@ class ImagePacker:
     """Packs images, one after another; not thread-safe."""
 
     def __init__(self) -> None:
-        self._compressor = zstandard.ZstdCompressor(level=LEVEL)
+        self._compressor = zstandard.ZstdCompressor(compression_params=COMPRESSION)
 
     def pack(self, image: Image, jpeg: bytes = b"") -> PackedImage:
         """Pack an image (h, w, 3), BGR; `jpeg` is the JPEG from which it was decoded, if any."""
         height, width = image.shape[:2]
         if jpeg:
             return PackedImage(packing=Packing.JPEG, size_wh_px=(width, height), content=jpeg)
-        is_grey = _has_equal_channels(image)
-        pixels = np.ascontiguousarray(image[:, :, 0] if is_grey else image)
+        grey = _grey_channel(image)
+        differences = _row_differences(image if grey is None else grey)
         return PackedImage(
-            packing=Packing.ZSTD_GREY if is_grey else Packing.ZSTD_BGR,
+            packing=Packing.ZSTD_BGR if grey is None else Packing.ZSTD_GREY,
             size_wh_px=(width, height),
-            content=self._compressor.compress(pixels.data),
+            content=self._compressor.compress(differences.data),
         )
 
 
@@ -86,11 +89,23 @@ def unpacked(packed: PackedImage) -> Image | None:
         return None
     if len(flat) != size:
         return None
-    pixels = np.frombuffer(flat, dtype=np.uint8).reshape(height, width, channels)
+    differences = np.frombuffer(flat, dtype=np.uint8).reshape(height, width, channels)
+    pixels = np.add.accumulate(differences, axis=0, dtype=np.uint8)
     return np.ascontiguousarray(np.broadcast_to(pixels, (height, width, 3)))
 
 
-def _has_equal_channels(image: Image) -> bool:
+def _row_differences(pixels: Image) -> Image:
+    differences = np.empty(pixels.shape, np.uint8)
+    differences[:1] = pixels[:1]
+    np.subtract(pixels[1:], pixels[:-1], out=differences[1:])
+    return differences
+
+
+def _grey_channel(image: Image) -> Image | None:
+    """Return the channel (h, w) of an image whose three channels are equal; None if they differ."""
     # A few pixels are compared first, because they differ in nearly every colour image.
     few = image[::16, ::16]
-    return all(np.array_equal(part[:, :, 0], part[:, :, other]) for part in (few, image) for other in (1, 2))
+    if not (np.array_equal(few[:, :, 0], few[:, :, 1]) and np.array_equal(few[:, :, 0], few[:, :, 2])):
+        return None
+    channel = np.asarray(cv2.extractChannel(image, 0), np.uint8)
+    return channel if np.array_equal(cv2.cvtColor(channel, cv2.COLOR_GRAY2BGR), image) else None

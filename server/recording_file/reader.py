@@ -91,6 +91,7 @@ class RecordingReader:
         self.is_whole, self.is_damaged, self.incomplete_reason = False, False, ""
         self.channels: dict[int, Channel] = {}
         self.schemas: dict[int, Schema] = {}
+        self._path = path
         try:
             self._file: IO[bytes] = path.open("rb")
         except OSError as error:
@@ -109,7 +110,11 @@ class RecordingReader:
         self.library = header.library
 
     def messages(self) -> Iterator[RecordedMessage]:
-        """Yield the messages up to the end of the file, or to the point where it is truncated or damaged."""
+        """Yield the messages up to the end of the file, or to the point where it is truncated or damaged.
+
+        Raises:
+            RecordingError: RECORDING_NOT_READABLE: Another version encoded its images.
+        """
         try:
             for record in self._records:
                 if isinstance(record, Channel):
@@ -143,7 +148,7 @@ class RecordingReader:
         packed = None
         if topic is Topic.IMAGE:
             size = int(channel.metadata["width_px"]), int(channel.metadata["height_px"])
-            packing = Packing(channel.message_encoding)
+            packing = known_packing(self._path, channel.message_encoding)
             packed = PackedImage(packing=packing, size_wh_px=size, content=record.data)
         return RecordedMessage(
             topic=topic,
@@ -156,10 +161,23 @@ class RecordingReader:
         )
 
 
-def _not_readable(path: Path, why: str) -> RecordingError:
+def known_packing(path: Path, encoding: str) -> Packing:
+    """Return the packing of a channel's images.
+
+    Raises:
+        RecordingError: RECORDING_NOT_READABLE: Another version encoded them.
+    """
+    try:
+        return Packing(encoding)
+    except ValueError as error:
+        why = f"this version cannot read its images ({encoding[:40]})"
+        raise _not_readable(path, why, encoding=encoding[:40]) from error
+
+
+def _not_readable(path: Path, why: str, **values: str) -> RecordingError:
     return RecordingError(
         "RECORDING_NOT_READABLE",
         f"{path} cannot be read as a recording: {why}",
         "Give a recording of Coaxial (.mcap).",
-        {"file": str(path), "read_problem": why, "system_error": why},
+        {"file": str(path), "read_problem": why, "system_error": why, **values},
     )

@@ -4,7 +4,7 @@ from enum import StrEnum
 
 PROFILE = "coaxial"
 # Incremented by each change that an older version cannot read.
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 SUFFIX = ".mcap"
 JSON = "json"
 ZSTD_JSON = "zstd+json"

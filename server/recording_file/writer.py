@@ -23,9 +23,10 @@ from mcap.writer import CompressionType, IndexType, Writer
 from server.disk import is_full
 from server.errors import RecordingError
 from server.recording_file.codec import Json
-from server.recording_file.packing import LEVEL, PackedImage
+from server.recording_file.packing import PackedImage
 from server.recording_file.topics import JSON, PROFILE, SCHEMA_ENCODING, ZSTD_JSON, Topic
 
+LEVEL = 1
 CHUNK_S = 0.4
 CHUNK_BYTES = 8 * 2**20
 NANOSECONDS = 1e9

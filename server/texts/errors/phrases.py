@@ -301,6 +301,10 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
             "de": "sie ist keine Aufnahme von Coaxial",
         },
         {
+            "en": "this version cannot read its images ({encoding})",
+            "de": "diese Version kann ihre Bilder nicht lesen ({encoding})",
+        },
+        {
             "en": "{system_error}",
             "de": "{system_error}",
         },

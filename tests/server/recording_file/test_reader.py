@@ -9,7 +9,7 @@ from mcap.opcode import Opcode
 
 from server.errors import RecordingError
 from server.recording_file import RecordedMessage, RecordingReader, Topic
-from server.recording_file.locations import MAGIC, RECORD, read_duration_s
+from server.recording_file.locations import MAGIC, RECORD, MessageLocations, read_duration_s
 from tests.server.recording_file.written import OFFSET_S, write_recording
 
 
@@ -49,6 +49,16 @@ def test_a_file_cut_anywhere_is_readable_up_to_the_cut(tmp_path: Path) -> None:
     # Truncation behind the data loses none of them: the index is not needed.
     assert counts[0] == 0
     assert counts[-1] == len(every)
+
+
+def test_images_of_another_encoding_are_named(tmp_path: Path) -> None:
+    path = write_recording(tmp_path / "a.mcap")
+    own, other = b"zstd-row-differences-bgr8", b"zstd-another-encoding-bgr"
+    content = path.read_bytes()
+    assert own in content
+    path.write_bytes(content.replace(own, other))
+    with pytest.raises(RecordingError, match=r"cannot read its images \(zstd-another-encoding-bgr\)"):
+        list(MessageLocations(path))
 
 
 def test_a_changed_bit_ends_the_reading_before_its_chunk(tmp_path: Path) -> None:
