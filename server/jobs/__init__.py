@@ -10,7 +10,7 @@ report(0.1, "sorting slices")
 """
 
 from server.jobs.jobs import Jobs, JobUnknown
-from server.jobs.records import Job, JobState
+from server.jobs.records import Job, JobQueue, JobState
 from server.jobs.worker import Report, Work
 
-__all__ = ["Job", "JobState", "JobUnknown", "Jobs", "Report", "Work"]
+__all__ = ["Job", "JobQueue", "JobState", "JobUnknown", "Jobs", "Report", "Work"]

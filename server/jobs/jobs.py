@@ -17,7 +17,7 @@ from typing import TypeAlias
 
 import structlog
 
-from server.jobs.records import Job, JobState
+from server.jobs.records import Job, JobQueue, JobState
 from server.jobs.worker import Progress, Result, Work, run_work, to_json_value
 from server.live import Problem
 from server.logs import LogSettings
@@ -51,7 +51,7 @@ class _JobProcess:
 
 
 class Jobs:
-    """Runs jobs in separate processes, at most `max_at_once` at a time. Thread-safe.
+    """Runs jobs in separate processes, at most `max_at_once` of a queue at a time. Thread-safe.
 
     Create it in the main thread: the fork server ends with the thread that started it.
     """
@@ -63,7 +63,7 @@ class Jobs:
         # thread that started it ends.
         self._starter = ThreadPoolExecutor(max_workers=1, thread_name_prefix="job starter")
         self._lock = threading.Lock()
-        self._turns = threading.Semaphore(max_at_once)
+        self._turns = {queue: threading.Semaphore(max_at_once) for queue in JobQueue}
         self._entries: dict[str, _JobProcess] = {}
         self._threads: dict[str, threading.Thread] = {}
         self._closed = False
@@ -76,6 +76,7 @@ class Jobs:
         *,
         folder: Path | None = None,
         conclude: Conclude | None = None,
+        queue: JobQueue = JobQueue.PROCEDURE,
     ) -> Job:
         """Start a job.
 
@@ -86,12 +87,15 @@ class Jobs:
             arguments: keyword arguments; they must be picklable.
             folder: folder of temporary files; deleted at the end of the job in every case.
             conclude: called in this process with the return value, to store it; returns the job's result.
+            queue: jobs of other queues do not wait for it.
         """
         job = Job(id=secrets.token_hex(8), title=title)
         entry = _JobProcess(
             job=job, work=work, arguments=dict(arguments or {}), folder=folder, conclude=conclude
         )
-        thread = threading.Thread(target=self._run, args=(entry,), name=f"job {job.id}", daemon=True)
+        thread = threading.Thread(
+            target=self._run, args=(entry, self._turns[queue]), name=f"job {job.id}", daemon=True
+        )
         with self._lock:
             if self._closed:
                 entry.cancelled.set()
@@ -149,9 +153,9 @@ class Jobs:
             thread.join(END_TIMEOUT_S)
         self._starter.shutdown(wait=False)
 
-    def _run(self, entry: _JobProcess) -> None:
+    def _run(self, entry: _JobProcess, turns: threading.Semaphore) -> None:
         try:
-            with self._turns:
+            with turns:
                 if not entry.cancelled.is_set():
                     self._work(entry)
         except Exception:

@@ -6,6 +6,13 @@ from enum import StrEnum
 from server.live import Problem
 
 
+class JobQueue(StrEnum):
+    """Jobs of one queue run one after another."""
+
+    PROCEDURE = "procedure"  # somebody waits for them in theatre
+    RECORDINGS = "recordings"  # a video of an hour takes longer than that hour
+
+
 class JobState(StrEnum):
     """State of a job."""
 

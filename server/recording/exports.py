@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from server.jobs import Job, Jobs
+from server.jobs import Job, JobQueue, Jobs
 from server.recording.cut import cut_recording
 from server.recording.parquet import write_parquet_archive
 from server.recording.sequence_metafile import SUFFIX as SEQUENCE_SUFFIX
@@ -147,6 +147,7 @@ class RecordingExports:
             {"recording": str(recording), "folder": str(folder), "file": file, **arguments},
             folder=folder,
             conclude=lambda result: self._stored(recording, folder / file, result),
+            queue=JobQueue.RECORDINGS,
         )
         with self._lock:
             self._newest[recording] = job.id

@@ -8,6 +8,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from server.recording_file.topics import SUFFIX
+
 PROC = Path("/proc")
 RING = "memfd:coaxial-ring"
 GONE_WITHIN_S = 30.0
@@ -21,6 +23,7 @@ class Family:
     Attributes:
         web: the web process.
         tracking: the tracking process; None if there is none.
+        recording: the process that writes a recording; None if there is none.
         others: fork server, resource tracker, jobs.
         shared: names of shared memory that any of them uses.
 
@@ -28,26 +31,29 @@ class Family:
 
     web: int
     tracking: int | None
+    recording: int | None
     others: tuple[int, ...]
     shared: frozenset[str]
 
     @property
     def pids(self) -> tuple[int, ...]:
         """All process ids."""
-        return (self.web, *(() if self.tracking is None else (self.tracking,)), *self.others)
+        return (self.web, *(pid for pid in (self.tracking, self.recording) if pid is not None), *self.others)
 
 
 def family_of(web: int) -> Family:
     """Find the processes of a server."""
     below = tuple(_descendants(web))
     maps = {pid: _maps(pid) for pid in (web, *below)}
+    recording = next((pid for pid in below if _writes_recording(pid)), None)
     # The fork server and jobs map no images.
-    tracking = next((pid for pid in below if RING in maps[pid]), None)
+    tracking = next((pid for pid in below if RING in maps[pid] and pid != recording), None)
     shared = {line.split()[-1] for text in maps.values() for line in text.splitlines() if "/dev/shm/" in line}  # noqa: S108  it is looked at, not written
     return Family(
         web=web,
         tracking=tracking,
-        others=tuple(pid for pid in below if pid != tracking),
+        recording=recording,
+        others=tuple(pid for pid in below if pid not in {tracking, recording}),
         shared=frozenset(shared),
     )
 
@@ -83,6 +89,12 @@ def _maps(pid: int) -> str:
         return (PROC / str(pid) / "maps").read_text()
     except OSError:
         return ""
+
+
+def _writes_recording(pid: int) -> bool:
+    with suppress(OSError):
+        return any(link.readlink().suffix == SUFFIX for link in (PROC / str(pid) / "fd").iterdir())
+    return False
 
 
 def _is_alive(pid: int) -> bool:

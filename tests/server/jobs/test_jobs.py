@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from server.jobs import Job, Jobs, JobState, JobUnknown
+from server.jobs import Job, JobQueue, Jobs, JobState, JobUnknown
 from server.logs import LogSettings
 from tests.server.jobs import job_functions
 from tracker.errors import InvalidInput
@@ -126,6 +126,16 @@ def test_cancelled_work_ends_at_once_and_leaves_nothing_behind(jobs: Jobs, folde
     assert jobs.wait_for(dropped.id).state is JobState.CANCELLED
     assert not folder.exists()
     assert concluded == []
+
+
+def test_a_video_does_not_hold_up_the_procedure(jobs: Jobs, folder: Path) -> None:
+    video = jobs.start(
+        "video", job_functions.never_end, {"folder": str(folder)}, folder=folder, queue=JobQueue.RECORDINGS
+    )
+    until_running(jobs, video, folder)
+    step = jobs.start("adding", job_functions.add, {"a": 1, "b": 1})
+    assert jobs.wait_for(step.id).state is JobState.DONE
+    assert jobs.cancel(video.id).state is JobState.CANCELLED
 
 
 def test_what_is_over_is_not_cancelled(jobs: Jobs) -> None:
