@@ -2,7 +2,6 @@
 
 import itertools
 import re
-import threading
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -34,20 +33,19 @@ class FolderSource:
         folder: Path,
         *,
         loop: bool,
-        fast: bool,
-        stop: threading.Event,
+        pacer: Pacer | None,
         rate_hz: float | None = None,
         first_number: int = 0,
     ) -> None:
         self.name = str(folder)
-        self.waits_for_consumer = fast
+        self.waits_for_consumer = pacer is None
         self.stalls = False
         self.camera: CameraStatus | None = None
         self._folder = folder
         self._loop = loop
         self._period_s = 1.0 / (rate_hz or DEFAULT_RATE_HZ)
         self._number = first_number
-        self._pacer = None if fast else Pacer(stop=stop)
+        self._pacer = pacer
         self._files: list[Path] = []
         self._reason_from_unusable: dict[Path, str] = {}
         self._next = 0

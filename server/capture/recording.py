@@ -1,6 +1,5 @@
 """A recording of Coaxial as a source: its images at its own rate or as fast as possible, once or looped."""
 
-import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,18 +16,16 @@ FALLBACK_PERIOD_S = 1.0 / 30.0
 class RecordingSource:
     """Images of a recording at their capture times; an incomplete file is played up to its end."""
 
-    def __init__(
-        self, path: Path, *, loop: bool, fast: bool, stop: threading.Event, first_number: int = 0
-    ) -> None:
+    def __init__(self, path: Path, *, loop: bool, pacer: Pacer | None, first_number: int = 0) -> None:
         self.name = str(path)
-        self.waits_for_consumer = fast
+        self.waits_for_consumer = pacer is None
         self.stalls = False
         self.defect: CaptureError | None = None
         self.camera: CameraStatus | None = None
         self._path = path
         self._loop = loop
         self._number = first_number
-        self._pacer = None if fast else Pacer(stop=stop)
+        self._pacer = pacer
         self._reader: RecordingReader | None = None
         self._images: Iterator[RecordedMessage] = iter(())
         self._is_predicted = False

@@ -9,6 +9,7 @@ from server.capture.folder import FolderSource
 from server.capture.industrial import BaslerCameras, GenTLCameras, IndustrialCameraSource
 from server.capture.local_camera import CalibratedCamera, LocalCameraSource
 from server.capture.modes import WantedMode
+from server.capture.pacer import Pacer
 from server.capture.phone import Inbox, PhoneSource
 from server.capture.plugin import PluginSource
 from server.capture.recording import RecordingSource
@@ -133,7 +134,9 @@ class PathSource:
         self.camera: CameraStatus | None = None
         self._path = Path(address.text)
         self._camera = config.camera
-        self._stop = stop
+        self._pacer = (
+            None if self.waits_for_consumer else Pacer(stop=stop, speed=config.camera.playback_speed)
+        )
         self._number = first_number
         self._source: VideoFileSource | FolderSource | RecordingSource | None = None
         self._defect: CaptureError | None = None
@@ -150,8 +153,7 @@ class PathSource:
             recording = RecordingSource(
                 self._path,
                 loop=self._camera.loop,
-                fast=self.waits_for_consumer,
-                stop=self._stop,
+                pacer=self._pacer,
                 first_number=self._number,
             )
             recording.open()
@@ -161,8 +163,7 @@ class PathSource:
         source = kind(
             self._path,
             loop=self._camera.loop,
-            fast=self.waits_for_consumer,
-            stop=self._stop,
+            pacer=self._pacer,
             rate_hz=self._camera.rate_hz,
             first_number=self._number,
         )

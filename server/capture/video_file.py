@@ -1,6 +1,5 @@
 """A video file as a source: at its own rate or as fast as possible, once or looped."""
 
-import threading
 import time
 from pathlib import Path
 
@@ -27,13 +26,12 @@ class VideoFileSource:
         path: Path,
         *,
         loop: bool,
-        fast: bool,
-        stop: threading.Event,
+        pacer: Pacer | None,
         rate_hz: float | None = None,
         first_number: int = 0,
     ) -> None:
         self.name = str(path)
-        self.waits_for_consumer = fast
+        self.waits_for_consumer = pacer is None
         self.stalls = False
         self.defect: CaptureError | None = None
         self.camera: CameraStatus | None = None
@@ -41,7 +39,7 @@ class VideoFileSource:
         self._loop = loop
         self._rate_hz = rate_hz
         self._number = first_number
-        self._pacer = None if fast else Pacer(stop=stop)
+        self._pacer = pacer
         self._video: cv2.VideoCapture | None = None
         self._is_predicted = False
         self._claimed = 0

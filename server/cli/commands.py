@@ -142,6 +142,10 @@ def run(
         Rate | None,
         typer.Option(help="Play a file at its own rate, or as fast as possible.", show_default=False),
     ] = None,
+    speed: Annotated[
+        float | None,
+        typer.Option(help="Play a file more slowly: 0.25 is a quarter of its own rate.", show_default=False),
+    ] = None,
     new_operator_link: Annotated[
         bool,
         typer.Option(
@@ -176,6 +180,7 @@ def run(
             port=port,
             loop=loop,
             rate=None if rate is None else rate.value,
+            speed=speed,
         )
         run_dashboard(given, log_json=log_json, debug=debug, new_operator_link=new_operator_link)
     finally:

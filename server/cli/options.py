@@ -22,6 +22,7 @@ class SettingOptions:
     port: int | None = None
     loop: bool | None = None
     rate: str | None = None
+    speed: float | None = None
 
 
 def config_from_options(given: SettingOptions) -> Config:
@@ -41,6 +42,7 @@ def config_from_options(given: SettingOptions) -> Config:
     put(("camera", "calibration"), None if given.camera is None else str(given.camera), "--camera")
     put(("camera", "loop"), given.loop, "--loop")
     put(("camera", "rate"), given.rate, "--rate")
+    put(("camera", "playback_speed"), given.speed, "--speed")
     if given.source is not None:
         put(("camera", "source"), given.source, "--source")
         if source_from_text(given.source).kind is SourceKind.REHEARSAL:

@@ -175,7 +175,7 @@ def run_recording(order: RecordingOrder, connection: Connection) -> None:
         return
     problem: Problem | None = None
     try:
-        _follow(recording, connection)
+        follow_server(recording, connection)
     except RecordingError as error:
         log.warning(error.message, code=error.code, remedy=error.remedy)
         problem = Problem.from_error(error)
@@ -186,7 +186,8 @@ def run_recording(order: RecordingOrder, connection: Connection) -> None:
         connection.send(recording.status(problem=problem, is_ended=True))
 
 
-def _follow(recording: "Recording", connection: Connection) -> None:
+def follow_server(recording: "Recording", connection: Connection) -> None:
+    """Record until the server requests the end; if it exits, up to the last image of the ring."""
     while True:
         try:
             while connection.poll(0.0 if recording.is_late else POLL_S):
@@ -197,6 +198,7 @@ def _follow(recording: "Recording", connection: Connection) -> None:
                     return
                 recording.take(message)
         except (EOFError, OSError):
+            recording.read_all()
             recording.note("STOPPED", "the server ended")
             return
         recording.read_newer()

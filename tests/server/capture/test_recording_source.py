@@ -23,7 +23,7 @@ def read_all(source: RecordingSource, maximum: int = 100) -> list[Shot]:
 
 
 def recording(path: Path, *, loop: bool = False) -> RecordingSource:
-    return RecordingSource(path, loop=loop, fast=True, stop=threading.Event(), first_number=7)
+    return RecordingSource(path, loop=loop, pacer=None, first_number=7)
 
 
 def test_a_recording_gives_every_image_once_with_its_own_time(tmp_path: Path) -> None:

@@ -133,7 +133,7 @@ def test_a_file_keeps_its_first_image_after_a_stream_was_open(
     stream = stream_of(server.server_address[1], stop)
     stream.open()
     stream.close()
-    video = VideoFileSource(write_video(tmp_path / "v.avi", images=3), loop=False, fast=True, stop=stop)
+    video = VideoFileSource(write_video(tmp_path / "v.avi", images=3), loop=False, pacer=None)
     video.open()
     times_s = [shot.source_time_s for shot in iter(video.read, None) if shot]
     assert times_s == pytest.approx([0.0, 0.04, 0.08])
