@@ -120,7 +120,7 @@ def test_a_server_that_exits_leaves_all_images(made: Make) -> None:
     of_server.close()
     assert theatre.recording is not None
     follow_server(theatre.recording, ours)
-    theatre.end()
+    theatre.recording.close()
     report = check_recording(theatre.path)
     assert (report.images, report.is_equal) == (4, True)
 
