@@ -39,7 +39,7 @@ from server.api.placements import placements_router
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.readout import readout_router
-from server.api.recording_review import recording_review_router
+from server.api.recording_review import recording_review_router, review_scenes_router
 from server.api.recordings import recording_exports_router, recordings_router
 from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
@@ -63,8 +63,9 @@ from server.procedure.scene_bone import SceneBone
 from server.recording.comments import RecordingComments
 from server.recording.exports import RecordingExports
 from server.recording.review import RecordingReview
+from server.recording.review_scenes import ReviewScenes
 from server.recording.service import RecordingService
-from server.scene import mount_scene
+from server.scene import Admit, mount_scene
 from server.security import HostGuard, KnownHosts, PeopleService, SecurityHeaders, SessionGuard
 from server.sinks import Sinks
 from server.store import CaseStore
@@ -145,6 +146,8 @@ def create_app(parts: AppParts) -> FastAPI:
                 await asyncio.to_thread(parts.steps.close)
             await link.stop()
             await app.state.scene.stop()
+            if app.state.review_scenes is not None:
+                await app.state.review_scenes.stop()
             counting.cancel()
             await asyncio.wait([counting])
             pictures.close()
@@ -162,6 +165,7 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     _add_guards(app, parts)
     app.state.pictures = pictures
+    app.state.review_scenes = None
     _add_streams(app, parts, viewers, video, view)
     app.include_router(live_router(hub))
     _add_people(app, parts)
@@ -185,7 +189,7 @@ def create_app(parts: AppParts) -> FastAPI:
         setup=parts.setup,
         surface=parts.surface,
         stale_after_ms=limits.scene_stale_after_ms,
-        admit=lambda person: viewers.register(ViewerKind.SCENE, person=person),
+        admit=_admitted(viewers),
         cut=abort_connection,
     )
     if parts.store is not None:
@@ -265,8 +269,16 @@ def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
             comments = RecordingComments(parts.store, parts.recordings)
             exports = RecordingExports(parts.recordings, parts.jobs, parts.store.home)
             app.include_router(recording_review_router(review, comments))
+            scenes = ReviewScenes(review, parts.store, admit=_admitted(viewers), cut=abort_connection)
+            app.state.review_scenes = scenes
+            app.include_router(review_scenes_router(scenes))
             app.include_router(drillings_router(review))
             app.include_router(recording_exports_router(exports))
+
+
+def _admitted(viewers: Viewers) -> Admit:
+    """Return a function that registers a viewer of a 3-D scene."""
+    return lambda person: viewers.register(ViewerKind.SCENE, person=person)
 
 
 def _add_procedure(app: FastAPI, parts: AppParts) -> None:

@@ -4,17 +4,17 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Path, Query, Request, Response
+from fastapi import APIRouter, Path, Query, Request, Response, WebSocket, status
 from pydantic import Field, StringConstraints, ValidationError
 
 from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.clock import utc_text
-from server.errors import RecordingError
 from server.jobs import Job
 from server.number_format import finite
 from server.recording.comments import MAX_TEXT_LENGTH, Comment, RecordingComments
-from server.recording.review import RecordingReview, Samples, sampled
+from server.recording.review import RecordingReview, Samples, other_version, sampled
+from server.recording.review_scenes import ReviewScenes
 from server.recording.timeline import FIGURES, STATUSES, EventKind, RecordingIndex, TimelineEvent
 from server.security.person import person_of
 from server.stream.alarm_messages import AlarmsMessage
@@ -111,6 +111,20 @@ class NearestImageMessage(Message):
     """Its time since the first image."""
 
 
+class SceneRequest(Message):
+    """The instant that a 3-D scene shows."""
+
+    number: Annotated[int, Field(ge=0)]
+    """Index of the image in the recording, from 0."""
+
+
+class ShownSceneMessage(Message):
+    """The instant that a 3-D scene shows."""
+
+    image_number: int
+    """Number of the image, as drawn in the scene."""
+
+
 class CommentRequest(Message):
     """A comment on an instant of a recording."""
 
@@ -138,6 +152,34 @@ class CommentMessage(Message):
 
 Seconds = Annotated[float, Query(ge=0.0, le=1e7)]
 Number = Annotated[int, Path(ge=0, description="Index of the image in the recording, from 0.")]
+
+
+Key = Annotated[str, Path(pattern=r"^[0-9a-f]{16,64}$", description="Chosen at random by the page.")]
+
+
+def review_scenes_router(scenes: ReviewScenes) -> APIRouter:
+    """Return the router of the 3-D scenes of recordings."""
+    router = APIRouter(tags=["recordings"])
+
+    @router.get("/scene/review/{key}/", include_in_schema=False)
+    async def page(key: Key, request: Request) -> Response:
+        scene = scenes.get(key)
+        return Response(status_code=404) if scene is None else await scene.answer(request)
+
+    @router.websocket("/scene/review/{key}/")
+    async def watch(key: str, websocket: WebSocket) -> None:
+        scene = scenes.get(key)
+        if scene is None:
+            await websocket.close(status.WS_1008_POLICY_VIOLATION)
+        else:
+            await scene.watch(websocket)
+
+    @router.put("/api/recordings/{name}/scenes/{key}", responses=rejections(404, 409, 422, 503))
+    async def show(name: str, key: Key, requested: SceneRequest) -> ShownSceneMessage:
+        """Show an image in the 3-D scene `/scene/review/{key}/`, which is created with the first one."""
+        return ShownSceneMessage(image_number=await scenes.show(key, name, requested.number))
+
+    return router
 
 
 def recording_review_router(review: RecordingReview, comments: RecordingComments) -> APIRouter:
@@ -198,13 +240,7 @@ def recording_review_router(review: RecordingReview, comments: RecordingComments
                 alarms=AlarmsMessage.model_validate_json(found.alarms) if found.alarms else None,
             )
         except ValidationError as error:
-            raise RecordingError(
-                "RECORDING_OTHER_VERSION",
-                f"the results of image {number} cannot be read: {error.error_count()} values have an unknown "
-                "format",
-                "Review the recording with the version of Coaxial that recorded it.",
-                {"name": name, "image": number, "unknown": error.error_count()},
-            ) from None
+            raise other_version(name, number, error) from None
 
     return router
 

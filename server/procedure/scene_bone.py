@@ -62,17 +62,20 @@ class SceneBone:
         return planned, surface if planned is not None and surface is not None and surface.files else None
 
     def _read(self, wanted: str, document: Document) -> None:
-        surface: Surface | None = None
-        try:
-            path = self._store.file(document.case_id, document.files[0]).path
-            surface = mesh_from_bytes(
-                path.read_bytes(), file_format="ply", unit="mm", space=Space.LPS
-            ).surface
-        except NavigationError as error:
-            log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-        except OSError:
-            log.warning("the bone surface cannot be read", document=document.title, exc_info=True)
+        surface = read_surface(self._store, document)
         with self._lock:
             # Another surface may have been requested meanwhile.
             if wanted == self._shown:
                 self._show(surface)
+
+
+def read_surface(store: CaseStore, document: Document) -> Surface | None:
+    """Return the bone surface of a document; None if it cannot be read, which is logged."""
+    try:
+        path = store.file(document.case_id, document.files[0]).path
+        return mesh_from_bytes(path.read_bytes(), file_format="ply", unit="mm", space=Space.LPS).surface
+    except NavigationError as error:
+        log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
+    except (OSError, IndexError):
+        log.warning("the bone surface cannot be read", document=document.title, exc_info=True)
+    return None

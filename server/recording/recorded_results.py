@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from server.loop.tracking_state import TrackingState
+from server.recording_file import CodecError, decoded_value, decompressed_json
 from server.setup import Preparation
 from server.stream.alarm_messages import AlarmMessage, AlarmsMessage, MeasureMessage, SiteMessage
 from server.stream.assessment_messages import AssessmentMessage, FigureMessage
@@ -46,6 +48,15 @@ from tracker.navigation.uncertainty import (
     ToleranceCheck,
 )
 from tracker.pose import Seen, Sighting, Unseen
+
+
+def state_of(content: bytes) -> TrackingState | None:
+    """Return the tracking state of a message; None if another version recorded it, or it is damaged."""
+    try:
+        state = decoded_value(decompressed_json(content))
+    except (CodecError, ValueError):
+        return None
+    return state if isinstance(state, TrackingState) else None
 
 
 def setup_of(preparation: Preparation, size_wh_px: tuple[int, int]) -> Setup:

@@ -5,11 +5,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from pydantic import ValidationError
 
 from server.errors import RecordingError
 from server.jobs import Job, Jobs, JobState
+from server.loop.tracking_state import TrackingState
 from server.overlay import encode_jpeg
 from server.recording.drilling_course import DrillingCourse
+from server.recording.messages import DocumentsMessage
+from server.recording.recorded_results import belongs_to, setup_of, snapshot_of, state_of
 from server.recording.service import RecordingService
 from server.recording.timeline import (
     FIGURES,
@@ -25,7 +29,9 @@ from server.recording.timeline import (
 )
 from server.recording_file import PackedImage, unpacked
 from server.recording_file.locations import read_content
-from server.store import NotFound
+from server.store import DocumentKind, NotFound
+from server.stream.snapshot_messages import SnapshotMessage
+from tracker.navigation import NavigationSnapshot
 
 JPEG_QUALITY = 85
 # Figures of which a sample of several images has the worst value; the sign makes the worst the largest.
@@ -63,6 +69,19 @@ class RecordedInstant:
     at_s: float
     snapshot: bytes
     alarms: bytes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordedScene:
+    """What the 3-D scene shows of one image.
+
+    Attributes:
+        snapshot: Its results; see `snapshot_of` for what they lack.
+        surface_id: Document of the bone surface that was in use; empty if there was none.
+    """
+
+    snapshot: NavigationSnapshot
+    surface_id: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,6 +130,7 @@ class RecordingReview:
         self._lock = threading.Lock()
         self._started: dict[Path, str] = {}
         self._newest: tuple[Path, int, RecordingIndex] | None = None
+        self._newest_state: tuple[tuple[Path, int, int], TrackingState | None] | None = None
 
     def index(self, name: str) -> RecordingIndex | Job:
         """Return the index of a recording, or the job that computes it.
@@ -196,6 +216,45 @@ class RecordingReview:
             alarms=_content(path, index.alarms[number]),
         )
 
+    def scene(self, name: str, number: int) -> RecordedScene:
+        """Return what the 3-D scene shows of an image, `number` from 0.
+
+        Raises the same errors as `jpeg`; RECORDING_WITHOUT_SETUP if the setup of its results is unknown.
+        """
+        path, index = self._opened(name, number)
+        place = _newest(index.states, number)
+        try:
+            message = SnapshotMessage.model_validate_json(_content(path, index.snapshots[number]))
+            state = self._state(path, place)
+            setup = (
+                None if state is None else setup_of(state.preparation, (message.width_px, message.height_px))
+            )
+            if setup is None or not belongs_to(setup, message):
+                raise RecordingError(
+                    "RECORDING_WITHOUT_SETUP",
+                    f"{name} does not state with which setup image {number} was computed",
+                    "Use its image and figures.",
+                    {"name": name, "number": number},
+                )
+            documents = _content(path, _newest(index.documents, number))
+            return RecordedScene(
+                snapshot=snapshot_of(message, setup),
+                surface_id=_surface_id(DocumentsMessage.model_validate_json(documents)) if documents else "",
+            )
+        except ValidationError as error:
+            raise other_version(name, number, error) from None
+
+    def _state(self, path: Path, place: Integers) -> TrackingState | None:
+        """Return a tracking state; the last one is kept, because decoding takes a tenth of a second."""
+        key = (path, int(place[0]), int(place[1]))
+        with self._lock:
+            if self._newest_state is not None and self._newest_state[0] == key:
+                return self._newest_state[1]
+        state = state_of(_content(path, place))
+        with self._lock:
+            self._newest_state = (key, state)
+        return state
+
     def nearest(self, name: str, at_s: float) -> tuple[int, float]:
         """Return the image nearest to a time since the first image, from 0, with its time.
 
@@ -280,6 +339,27 @@ def _worst(index: RecordingIndex, name: str, numbers: Integers) -> int:
         return int(numbers[-1])
     values = WORST_SIGN[name] * index.values[numbers, FIGURES.index(name)]
     return int(numbers[0] if np.isnan(values).all() else numbers[np.nanargmax(values)])
+
+
+def other_version(name: str, number: int, error: ValidationError) -> RecordingError:
+    """Return the error for results in an unknown format."""
+    return RecordingError(
+        "RECORDING_OTHER_VERSION",
+        f"the results of image {number} cannot be read: {error.error_count()} values have an unknown format",
+        "Review the recording with the version of Coaxial that recorded it.",
+        {"name": name, "image": number, "unknown": error.error_count()},
+    )
+
+
+def _newest(places: Integers, number: int) -> Integers:
+    """Return offset and length of the newest of these messages for an image; zeros if there is none."""
+    row = int(np.searchsorted(places[:, 0], number, side="right")) - 1
+    return places[row, 1:] if row >= 0 else np.zeros(2, dtype=np.int64)
+
+
+def _surface_id(documents: DocumentsMessage) -> str:
+    kind = DocumentKind.SURFACE.value
+    return next((one.id for one in documents.documents if one.kind == kind), "")
 
 
 def _content(path: Path, place: Integers) -> bytes:

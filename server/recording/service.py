@@ -52,6 +52,7 @@ RECORDED_KINDS = (
     DocumentKind.CAMERA,
     DocumentKind.MARKER,
     DocumentKind.TOOL,
+    DocumentKind.SURFACE,
     DocumentKind.PLAN,
     DocumentKind.REGISTRATION,
     DocumentKind.CHECK,

@@ -23,13 +23,15 @@ from tracker.navigation import Status
 from tracker.navigation.alarms import AlarmState, Change
 
 # Incremented by each change of the format; an index of another version is computed again.
-VERSION = 3
+VERSION = 4
 SUFFIX = ".index.npz"
 FIGURES = ("entry", "angle", "depth", "wall")
 STATUSES = tuple(Status)
 PACKINGS = tuple(Packing)
 # Repeated losses of images, as on a machine that is too slow, are merged into one event.
 MAX_NOTE_GAP_S = 5.0
+# Notes after which images may have another setup.
+STATE_ENDS = ("STATE_MISSING", "PROCESS_CHANGED")
 # Figures withheld for a shorter time are a gap in the curves but not an event.
 MIN_WITHHELD_S = 0.3
 
@@ -75,6 +77,8 @@ class RecordingIndex:
         sizes_px: (n, 2) width, height.
         values, limits: (n, 4) values and limits of `FIGURES`, in their units; NaN if absent.
         statuses: (n, 4) index in `STATUSES`; -1 if absent.
+        states, documents: (m, 3) first image to which a tracking state or the documents in use apply, offset
+            and length; length 0 from the image on whose state is unknown.
     """
 
     begin_unix_s: float
@@ -90,6 +94,8 @@ class RecordingIndex:
     values: Floats
     limits: Floats
     statuses: Integers
+    states: Integers
+    documents: Integers
 
     def __len__(self) -> int:
         return len(self.at_s)
@@ -209,7 +215,14 @@ def make_index(path: Path, report: Report = lambda _ratio, _doing: None) -> Reco
                 case Topic.MARKS:
                     events.add_mark(location.unix_s, _json(file, location))
                 case Topic.NOTE:
-                    events.add_note(location.unix_s, _json(file, location))
+                    note = _json(file, location)
+                    events.add_note(location.unix_s, note)
+                    if note.get("code") in STATE_ENDS:
+                        rows.states.append((len(rows.pairs), 0, 0))
+                case Topic.STATE:
+                    rows.states.append((len(rows.pairs), location.offset, location.length))
+                case Topic.DOCUMENTS:
+                    rows.documents.append((len(rows.pairs), location.offset, location.length))
                 case _:  # only a replay reads these
                     pass
     return rows.index(events, is_whole=locations.is_whole)
@@ -236,6 +249,8 @@ class _Rows:
     statuses: list[list[int]] = field(default_factory=list)
     reasons: list[str] = field(default_factory=list)
     courses: DrillingCourses = field(default_factory=DrillingCourses)
+    states: list[tuple[int, int, int]] = field(default_factory=list)
+    documents: list[tuple[int, int, int]] = field(default_factory=list)
 
     def add(self, snapshot: Location, content: Json) -> None:
         image = self.image
@@ -275,6 +290,8 @@ class _Rows:
             values=np.array(self.values, dtype=np.float64).reshape(-1, len(FIGURES)),
             limits=np.array(self.limits, dtype=np.float64).reshape(-1, len(FIGURES)),
             statuses=np.array(self.statuses, dtype=np.int64).reshape(-1, len(FIGURES)),
+            states=np.array(self.states, dtype=np.int64).reshape(-1, 3),
+            documents=np.array(self.documents, dtype=np.int64).reshape(-1, 3),
         )
 
     def _alarms_of(self, unix_s: Floats) -> Integers:

@@ -25,9 +25,9 @@ from server.disk import named_when_complete
 from server.errors import RecordingError
 from server.loop.tracking_state import TrackingState
 from server.overlay import draw_card, draw_overlay, with_strip
-from server.recording.recorded_results import alarms_of, belongs_to, setup_of, snapshot_of
-from server.recording.timeline import RecordingIndex, Report, make_index, stored_index
-from server.recording_file import CodecError, RecordedMessage, RecordingReader, Topic, decoded_value
+from server.recording.recorded_results import alarms_of, belongs_to, setup_of, snapshot_of, state_of
+from server.recording.timeline import STATE_ENDS, RecordingIndex, Report, make_index, stored_index
+from server.recording_file import RecordedMessage, RecordingReader, Topic
 from server.recording_file.locations import read_content
 from server.recording_file.packing import Image
 from server.stream.alarm_messages import AlarmsMessage
@@ -172,9 +172,8 @@ class _Pictures:
                     limits = message.json().get("settings", {}).get("limits", {})
                     self._max_gap_s = limits.get("video_stale_after_ms", 1e3 * MAX_GAP_S) / 1e3
                 case Topic.STATE:
-                    self._state = _state(message)
-                case Topic.NOTE if message.json()["code"] in ("STATE_MISSING", "PROCESS_CHANGED"):
-                    # Later images may have another setup.
+                    self._state = state_of(message.content)
+                case Topic.NOTE if message.json()["code"] in STATE_ENDS:
                     self._state = None
                 case Topic.IMAGE:
                     image = message
@@ -329,12 +328,3 @@ def _not_written(target: Path, error: OSError) -> RecordingError:
         "Check that its folder exists and its disk has free space, then export again.",
         {"name": target.name, "system_error": what},
     )
-
-
-def _state(message: RecordedMessage) -> TrackingState | None:
-    """Return a tracking state; None if another version recorded it."""
-    try:
-        state = decoded_value(message.json())
-    except (CodecError, ValueError):
-        return None
-    return state if isinstance(state, TrackingState) else None

@@ -11,7 +11,7 @@ reader.py     reader, also of an incomplete file
 
 from server.recording_file.codec import CodecError, decoded_value, encoded_value
 from server.recording_file.packing import ImagePacker, PackedImage, Packing, unpacked
-from server.recording_file.reader import RecordedMessage, RecordingReader
+from server.recording_file.reader import RecordedMessage, RecordingReader, decompressed_json
 from server.recording_file.topics import Topic
 from server.recording_file.writer import RecordingWriter, WriterLimits
 
@@ -26,6 +26,7 @@ __all__ = [
     "Topic",
     "WriterLimits",
     "decoded_value",
+    "decompressed_json",
     "encoded_value",
     "unpacked",
 ]

@@ -63,14 +63,20 @@ class RecordedMessage:
         Raises:
             ValueError: The content is not JSON.
         """
-        content = self.content
-        if self.is_compressed:
-            try:
-                with zstandard.ZstdDecompressor().stream_reader(content) as stream:
-                    content = stream.read(MAX_VALUE_BYTES)
-            except zstandard.ZstdError as error:
-                raise ValueError(str(error)) from error
-        return json.loads(content)
+        return decompressed_json(self.content) if self.is_compressed else json.loads(self.content)
+
+
+def decompressed_json(content: bytes) -> Json:
+    """Return the value of a compressed JSON message.
+
+    Raises:
+        ValueError: The content is damaged.
+    """
+    try:
+        with zstandard.ZstdDecompressor().stream_reader(content) as stream:
+            return json.loads(stream.read(MAX_VALUE_BYTES))
+    except zstandard.ZstdError as error:
+        raise ValueError(str(error)) from error
 
 
 class RecordingReader:

@@ -6,6 +6,6 @@ drives its message producer (`door.py`), and no message of a viewer reaches it (
 page of viser report the drawn image and apply a viewpoint.
 """
 
-from server.scene.scene import Scene, mount_scene
+from server.scene.scene import Admit, Cut, Scene, mount_scene
 
-__all__ = ["Scene", "mount_scene"]
+__all__ = ["Admit", "Cut", "Scene", "mount_scene"]

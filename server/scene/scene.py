@@ -5,6 +5,7 @@ import contextlib
 import time
 from collections.abc import Callable, MutableMapping
 from contextlib import AbstractContextManager, nullcontext
+from functools import cache
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import structlog
@@ -96,9 +97,9 @@ class Scene:
         self.counts: dict[Verdict, int] = dict.fromkeys(Verdict, 0)
         self.routes: list[BaseRoute] = [
             Route("/scene", lambda _: RedirectResponse("scene/"), methods=["GET"]),
-            Route("/scene/", self._answer, methods=["GET"]),
-            WebSocketRoute("/scene", self._watch),
-            WebSocketRoute("/scene/", self._watch),
+            Route("/scene/", self.answer, methods=["GET"]),
+            WebSocketRoute("/scene", self.watch),
+            WebSocketRoute("/scene/", self.watch),
         ]
 
     async def start(self) -> None:
@@ -169,10 +170,11 @@ class Scene:
             _log.exception("scene_instant_failed", sequence=instant.sequence)
             stage.show_nothing()
 
-    async def _answer(self, request: Request) -> Response:
+    async def answer(self, request: Request) -> Response:
+        """Return the page of viser."""
         return (await self._opened_page()).answer(request)
 
-    async def _watch(self, websocket: WebSocket) -> None:
+    async def watch(self, websocket: WebSocket) -> None:
         """Serve one viewer from the handshake to the end of its connection."""
         rejection = self._rejection(websocket)
         if rejection is None:
@@ -269,6 +271,7 @@ class Scene:
                 return REJECTED
 
 
+@cache
 def _loaded_page(stale_after_ms: float) -> "Page":
     """Import viser, and return its page."""
     import server.scene.stage  # noqa: PLC0415, F401  loaded when somebody comes to look

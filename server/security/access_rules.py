@@ -73,6 +73,8 @@ GET     /api/recordings/{name}/timeline
 GET     /api/recordings/{name}/nearest
 GET     /api/recordings/{name}/images/{number}.jpg
 GET     /api/recordings/{name}/instants/{number}
+GET     /scene/review/{key}/
+WS      /scene/review/{key}/
 GET     /api/recordings/{name}/exports
 GET     /api/recordings/{name}/exports/{file}
 GET     /api/cases
@@ -133,6 +135,7 @@ POST    /api/alarms/screens
 
 # A remote colleague requests a hold, releases it, and co-signs. Nothing moves by it.
 DONE_BY_OVERSEERS = """
+PUT     /api/recordings/{name}/scenes/{key}
 POST    /api/recordings/{name}/comments
 POST    /api/alarms/hold
 POST    /api/alarms/release
@@ -237,8 +240,12 @@ SENT_BY_CAMERAS = """
 WS      /ws/camera
 """
 
-# Not an action of a person: a heartbeat of the page every two seconds. The alarm log has the changes.
-NOT_AUDITED = "POST    /api/alarms/screens"
+# Not an action of a person: a heartbeat of the page every two seconds (the alarm log has the changes), and
+# the instant that a review shows.
+NOT_AUDITED = """
+POST    /api/alarms/screens
+PUT     /api/recordings/{name}/scenes/{key}
+"""
 # Reads, but patient images leave the server.
 AUDITED = """
 GET     /api/cases/{case_id}/archive

@@ -97,6 +97,12 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
     ),
     "RECORDING_EMPTY": ({"en": "{name} has no image", "de": "{name} hat kein Bild"},),
     "RECORDING_NOT_INDEXED": ({"en": "{name} is not indexed yet", "de": "{name} ist noch nicht eingelesen"},),
+    "RECORDING_WITHOUT_SETUP": (
+        {
+            "en": "{name} does not state with which setup image {number} was computed",
+            "de": "{name} gibt nicht an, mit welchem Aufbau Bild {number} berechnet wurde",
+        },
+    ),
     "RECORDING_PROTECTED": (
         {"en": "{name} is protected from deletion", "de": "{name} ist vor dem Löschen geschützt"},
     ),

@@ -3,6 +3,7 @@
 from server.texts.language import Text
 
 RECORDINGS: tuple[Text, ...] = (
+    {"en": "Use its image and figures.", "de": "Bild und Zahlen verwenden."},
     {
         "en": "Load its timeline, and wait until it is ready.",
         "de": "Die Zeitachse der Aufnahme laden und warten, bis sie bereit ist.",

@@ -1,0 +1,121 @@
+"""The 3-D scene of a recorded instant, as a browser receives it."""
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+import pytest
+import zstandard
+from fastapi.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from server.app import AppParts, create_app
+from server.config import Config
+from server.jobs import Jobs
+from server.live import LiveHub
+from server.logs import LogSettings
+from server.recording.review_scenes import MAX_SCENES
+from server.scene.gate import SUBPROTOCOL
+from server.store import CaseStore, Home
+from tests.server.recording.no_recorder import recordings_without_process
+from tests.server.recording.reviewed import write_drilling
+
+NAME, WITHOUT_STATE = "20260101T000000Z-0000.mcap", "20260102T000000Z-0000.mcap"
+KEY = "0123456789abcdef"
+SOCKET = "ws://127.0.0.1:8000/scene/review"
+
+
+@pytest.fixture
+def client(recorded: Path, tmp_path: Path) -> Iterator[TestClient]:
+    """Return a client of a server with two indexed recordings."""
+    with Home(tmp_path / "home") as home, CaseStore(home) as store:
+        store.open(store.create("L3").id)
+        case = store.get_open_case()
+        assert case is not None
+        folder = home.cases / case.id / "recordings"
+        folder.mkdir(parents=True)
+        shutil.copy(recorded, folder / NAME)
+        write_drilling(folder / WITHOUT_STATE)
+        config = Config.model_validate({"recording": {"min_free_gb": 0.0, "consent": "not_required"}})
+        jobs = Jobs(log=LogSettings(as_json=True))
+        parts = AppParts(
+            hub=LiveHub(),
+            config=config,
+            store=store,
+            recordings=recordings_without_process(store, config),
+            jobs=jobs,
+        )
+        with TestClient(create_app(parts), base_url="http://127.0.0.1:8000") as client:
+            for name in (NAME, WITHOUT_STATE):
+                found = client.get(f"/api/recordings/{name}/timeline").json()
+                jobs.wait_for(found["job"]["id"], timeout_s=60.0)
+            yield client
+        jobs.close()
+
+
+def show(client: TestClient, number: int, *, name: str = NAME, key: str = KEY) -> dict[str, Any]:
+    answer = client.put(f"/api/recordings/{name}/scenes/{key}", json={"number": number})
+    return {"status": answer.status_code, **answer.json()}
+
+
+def positions(packet: bytes) -> dict[str, list[float]]:
+    """Return the new positions of nodes in a message."""
+    size, length = int.from_bytes(packet[:8], "little"), int.from_bytes(packet[8:16], "little")
+    plain = zstandard.ZstdDecompressor().decompress(packet[16 : 16 + length], max_output_size=size)
+    batch = msgspec.msgpack.decode(plain)["messages"]
+    return {one["name"]: one["position"] for one in batch if one["type"] == "SetPositionMessage"}
+
+
+def drawn(socket: Any, image_number: int) -> dict[str, list[float]]:  # noqa: ANN401  of the test client
+    """Return the positions of nodes when this image is drawn."""
+    found: dict[str, list[float]] = {}
+    while found.get("/image_number", [0.0, 0.0])[:2] != [1.0, image_number]:
+        found |= positions(socket.receive_bytes())
+    return found
+
+
+def test_the_scene_shows_the_recorded_pose_and_follows_the_review(client: TestClient) -> None:
+    assert client.get(f"/scene/review/{KEY}/").status_code == 404
+    instants = [client.get(f"/api/recordings/{NAME}/instants/{number}").json() for number in (0, 10)]
+    numbers = [one["snapshot"]["image_number"] for one in instants]
+    assert show(client, 0) == {"status": 200, "image_number": numbers[0]}
+    assert client.get(f"/scene/review/{KEY}/").headers["content-type"].startswith("text/html")
+    with client.websocket_connect(f"{SOCKET}/{KEY}/", subprotocols=[SUBPROTOCOL]) as socket:
+        nodes = drawn(socket, numbers[0])
+        pose = instants[0]["snapshot"]["tools"][0]["pose"]
+        vertebra = instants[0]["snapshot"]["vertebra"]["camera_from_vertebra"]
+        rotation = np.array(vertebra["rotation"])
+        expected = rotation.T @ (
+            np.array(pose["camera_from_tool"]["translation_mm"]) - np.array(vertebra["translation_mm"])
+        )
+        tool = next(place for name, place in nodes.items() if name.endswith("/tool_0"))
+        assert tool == pytest.approx(expected.tolist(), abs=1e-3)
+        assert show(client, 10) == {"status": 200, "image_number": numbers[1]}
+        drawn(socket, numbers[1])
+
+
+def test_without_the_setup_nothing_is_drawn(client: TestClient) -> None:
+    answer = show(client, 3, name=WITHOUT_STATE)
+    assert (answer["status"], answer["code"]) == (409, "RECORDING_WITHOUT_SETUP")
+    assert client.get(f"/scene/review/{KEY}/").status_code == 404
+    assert show(client, 16)["code"] == "RECORDED_IMAGE_UNKNOWN"
+    assert show(client, 0, key="not a key")["status"] == 422
+
+
+def test_of_too_many_scenes_the_oldest_is_closed(client: TestClient) -> None:
+    keys = [f"{number:016x}" for number in range(MAX_SCENES + 1)]
+    for key in keys[:MAX_SCENES]:
+        show(client, 0, key=key)
+    # Used again, it is no longer the oldest.
+    show(client, 1, key=keys[0])
+    show(client, 0, key=keys[-1])
+    gone = [key for key in keys if client.get(f"/scene/review/{key}/").status_code == 404]
+    assert gone == [keys[1]]
+    with (
+        pytest.raises(WebSocketDisconnect),
+        client.websocket_connect(f"{SOCKET}/{keys[1]}/", subprotocols=[SUBPROTOCOL]) as socket,
+    ):
+        socket.receive_bytes()
