@@ -111,14 +111,14 @@ class NearestImageMessage(Message):
     """Its time since the first image."""
 
 
-class SceneRequest(Message):
+class RecordedSceneRequest(Message):
     """The instant that a 3-D scene shows."""
 
     number: Annotated[int, Field(ge=0)]
     """Index of the image in the recording, from 0."""
 
 
-class ShownSceneMessage(Message):
+class RecordedSceneMessage(Message):
     """The instant that a 3-D scene shows."""
 
     image_number: int
@@ -166,7 +166,8 @@ def review_scenes_router(scenes: ReviewScenes) -> APIRouter:
         scene = scenes.get(key)
         return Response(status_code=404) if scene is None else await scene.answer(request)
 
-    @router.websocket("/scene/review/{key}/")
+    # The page of viser removes the slash.
+    @router.websocket("/scene/review/{key}")
     async def watch(key: str, websocket: WebSocket) -> None:
         scene = scenes.get(key)
         if scene is None:
@@ -175,9 +176,9 @@ def review_scenes_router(scenes: ReviewScenes) -> APIRouter:
             await scene.watch(websocket)
 
     @router.put("/api/recordings/{name}/scenes/{key}", responses=rejections(404, 409, 422, 503))
-    async def show(name: str, key: Key, requested: SceneRequest) -> ShownSceneMessage:
+    async def show(name: str, key: Key, requested: RecordedSceneRequest) -> RecordedSceneMessage:
         """Show an image in the 3-D scene `/scene/review/{key}/`, which is created with the first one."""
-        return ShownSceneMessage(image_number=await scenes.show(key, name, requested.number))
+        return RecordedSceneMessage(image_number=await scenes.show(key, name, requested.number))
 
     return router
 

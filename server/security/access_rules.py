@@ -74,7 +74,7 @@ GET     /api/recordings/{name}/nearest
 GET     /api/recordings/{name}/images/{number}.jpg
 GET     /api/recordings/{name}/instants/{number}
 GET     /scene/review/{key}/
-WS      /scene/review/{key}/
+WS      /scene/review/{key}
 GET     /api/recordings/{name}/exports
 GET     /api/recordings/{name}/exports/{file}
 GET     /api/cases

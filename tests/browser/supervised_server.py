@@ -113,7 +113,7 @@ def put_recordings(store: CaseStore) -> None:
     folder = store.home.cases / case.id / "recordings"
     folder.mkdir(parents=True)
     write_drilling(folder / "20260101T000000Z-0000.mcap")
-    write_drilling(folder / "20260102T000000Z-0000.mcap", SECOND)
+    write_drilling(folder / "20260102T000000Z-0000.mcap", SECOND, has_setup=True)
 
 
 def main() -> None:

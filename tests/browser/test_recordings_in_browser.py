@@ -81,7 +81,7 @@ def shows(page: Page, number: int) -> None:
     expect(page.get_by_test_id("review-image")).to_have_attribute("src", re.compile(re.escape(source) + "$"))
 
 
-@pytest.mark.parametrize("size", [SCREEN, PHONE], ids=["screen", "phone"])
+@pytest.mark.parametrize("size", [SCREEN, TABLET, PHONE], ids=["screen", "tablet", "phone"])
 def test_any_instant_of_a_recording_is_reviewed(
     supervised: Supervised, watch: Watch, size: tuple[int, int]
 ) -> None:
@@ -136,6 +136,24 @@ def test_any_instant_of_a_recording_is_reviewed(
         assert min(shape["width"], shape["height"]) >= 44, button.inner_text()
     page.get_by_test_id("review").scroll_into_view_if_needed()
     picture(page, f"review-{size[0]}")
+
+
+def test_the_3d_scene_shows_the_displayed_instant(supervised: Supervised, watch: Watch) -> None:
+    page = opened(watch, supervised, "s1", "supervisor", TABLET)
+    page.get_by_test_id("fold-recordings").locator("summary").click()
+    page.locator("[data-name='20260102T000000Z-0000.mcap']").get_by_test_id("review-open").click()
+    shows(page, 0)
+    page.get_by_test_id("review-scene-toggle").click()
+    stage = page.get_by_test_id("review-scene-stage")
+    expect(stage).to_have_attribute("data-live", "true")
+    stage.scroll_into_view_if_needed()
+    picture(page, "review-scene")
+    before = stage.screenshot()
+    page.get_by_test_id("review-events").get_by_role("button", name="Alarm · BREACH").click()
+    expect(page.get_by_test_id("review-wall")).to_have_text(re.compile(r"^−\d\.\d$"))
+    expect(stage).to_have_attribute("data-live", "true")
+    stage.scroll_into_view_if_needed()
+    assert stage.screenshot() != before
 
 
 def side(page: Page, place: int) -> Locator:

@@ -16,6 +16,8 @@ from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.logs import LogSettings
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
+from server.loop.tracking import Tracking
+from server.loop.tracking_state import tracking_state_bytes
 from server.recording.messages import session_message
 from server.recording.process import (
     AlarmsBegin,
@@ -26,8 +28,10 @@ from server.recording.process import (
     TextMessage,
 )
 from server.recording_file import Topic, WriterLimits
+from server.setup import Preparation
 from tests.server.texts.drilled_rod import UNSEEN, concluded, seen_at, setup_of
 from tests.tracker.navigation.assessed import drill_reference
+from tracker.marker import ScoreSettings
 from tracker.navigation.alarms import AlarmSnapshot
 
 RATE_HZ = 10.0
@@ -46,22 +50,26 @@ SOURCE = SourceStatus(name="/dev/video0", state=SourceState.RUNNING)
 RUNNING = ProcessStatus(state=ProcessState.RUNNING)
 
 
-def write_drilling(path: Path, modes: Sequence[str] = DRILLED) -> Path:
-    """Write a recording with one image for each mode, from navigation to a breach and back."""
-    path.write_bytes(_recorded(tuple(modes)))
+def write_drilling(path: Path, modes: Sequence[str] = DRILLED, *, has_setup: bool = False) -> Path:
+    """Write a recording with one image for each mode, from navigation to a breach and back.
+
+    `has_setup`: with a tracking state, and so with the setup of the results, for the 3-D scene. Its images
+    show no marker, so that it cannot be replayed.
+    """
+    path.write_bytes(_recorded(tuple(modes), has_setup=has_setup))
     return path
 
 
 @cache
-def _recorded(modes: tuple[str, ...]) -> bytes:
+def _recorded(modes: tuple[str, ...], *, has_setup: bool) -> bytes:
     """The file of a recording, made once a process."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "case.mcap"
-        _record(path, modes)
+        _record(path, modes, has_setup=has_setup)
         return path.read_bytes()
 
 
-def _record(path: Path, modes: tuple[str, ...]) -> None:
+def _record(path: Path, modes: tuple[str, ...], *, has_setup: bool) -> None:
     now_s = BEGIN_S
     config = Config()
     alarms = AlarmService(config, clock=lambda: now_s)
@@ -89,14 +97,17 @@ def _record(path: Path, modes: tuple[str, ...]) -> None:
 
     alarms.record_steps(take, begin)
     setup, reference = setup_of(), drill_reference()
+    first_state = ring.write_state(tracking_state_bytes(Tracking(_preparation()))) if has_setup else -1
     for number, mode in enumerate(modes):
         now_s = BEGIN_S + number / RATE_HZ
         sighting = UNSEEN if mode == "hidden" else seen_at(np.array(PLACES[mode]), setup.tools["drill"])
         snapshot = concluded(setup, reference, {"drill": sighting}, number=1000 + number, captured_at_s=now_s)
         snapshot = replace(snapshot, size_wh_px=(WIDTH, HEIGHT))
-        # It has no stored state, so it can be reviewed but not replayed.
         report = Report(
-            source=SOURCE, snapshot=snapshot, tracked_images=number + 1, state=-1 if number == 0 else 0
+            source=SOURCE,
+            snapshot=snapshot,
+            tracked_images=number + 1,
+            state=first_state if number == 0 else 0,
         )
         image, jpeg = drawn(number)
         ring.write(packer.pack(report), image, encoded=jpeg)
@@ -112,6 +123,22 @@ def _record(path: Path, modes: tuple[str, ...]) -> None:
         recording.tick()
     recording.note("STOPPED", "the test ended it")
     recording.close()
+
+
+def _preparation() -> Preparation:
+    """Return what gives the setup of the results for images of this size."""
+    setup = setup_of()
+    return Preparation(
+        camera=setup.camera,
+        models=(),
+        tools=setup.tools,
+        channel=setup.channel,
+        registration=setup.registration,
+        reference="",
+        score_settings=ScoreSettings(),
+        max_tip_sd_mm=setup.max_tip_sd_mm,
+        same_sensor_area=True,
+    )
 
 
 def drawn(number: int) -> tuple[np.ndarray, bytes]:

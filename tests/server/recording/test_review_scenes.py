@@ -83,7 +83,7 @@ def test_the_scene_shows_the_recorded_pose_and_follows_the_review(client: TestCl
     numbers = [one["snapshot"]["image_number"] for one in instants]
     assert show(client, 0) == {"status": 200, "image_number": numbers[0]}
     assert client.get(f"/scene/review/{KEY}/").headers["content-type"].startswith("text/html")
-    with client.websocket_connect(f"{SOCKET}/{KEY}/", subprotocols=[SUBPROTOCOL]) as socket:
+    with client.websocket_connect(f"{SOCKET}/{KEY}", subprotocols=[SUBPROTOCOL]) as socket:
         nodes = drawn(socket, numbers[0])
         pose = instants[0]["snapshot"]["tools"][0]["pose"]
         vertebra = instants[0]["snapshot"]["vertebra"]["camera_from_vertebra"]
@@ -116,6 +116,6 @@ def test_of_too_many_scenes_the_oldest_is_closed(client: TestClient) -> None:
     assert gone == [keys[1]]
     with (
         pytest.raises(WebSocketDisconnect),
-        client.websocket_connect(f"{SOCKET}/{keys[1]}/", subprotocols=[SUBPROTOCOL]) as socket,
+        client.websocket_connect(f"{SOCKET}/{keys[1]}", subprotocols=[SUBPROTOCOL]) as socket,
     ):
         socket.receive_bytes()

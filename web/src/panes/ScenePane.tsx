@@ -6,7 +6,8 @@ import { useTexts } from "../texts/TextsContext";
 import { Cover } from "./Cover";
 import { Pane } from "./Pane";
 import { PaintRateLimiter } from "./paintRateLimiter";
-import { setSize, sendRate, sendView, VIEWS, type ViewName } from "./sceneFrame";
+import { setSize, sendRate, sendView, type ViewName } from "./sceneFrame";
+import { SceneViewButtons } from "./SceneViewButtons";
 import { setData, setText } from "./setText";
 import { hasWebGl } from "./webgl";
 
@@ -96,22 +97,13 @@ export function ScenePane({ tabs }: { tabs?: ReactNode }): ReactNode {
             }}
           />
         )}
-        <div className="scene-views" role="group" aria-label={texts.scene.views}>
-          {VIEWS.map((name) => (
-            <button
-              key={name}
-              type="button"
-              aria-pressed={name === chosen}
-              data-testid={`view-${name}`}
-              onClick={() => {
-                setChosen(name);
-                sendView(frame.current, name);
-              }}
-            >
-              {texts.scene.view[name]}
-            </button>
-          ))}
-        </div>
+        <SceneViewButtons
+          chosen={chosen}
+          onView={(name) => {
+            setChosen(name);
+            sendView(frame.current, name);
+          }}
+        />
         <div className="when-stale" data-testid="scene-cover">
           <Cover
             urgency={isCalm ? "none" : "medium"}

@@ -32,6 +32,7 @@ function Loaded({ name, mayExport, state, loaded }: LoadedProps): ReactNode {
   const { duration_s: durationS } = loaded.timeline;
   return (
     <ReviewPanel
+      name={name}
       loaded={loaded}
       span={state.span}
       onSpan={state.setSpan}

@@ -56,6 +56,7 @@ function LoadedPair({ names, titles, states, loaded, onClose }: LoadedPairProps)
             >
               <h4>{titles[place]}</h4>
               <ReviewPanel
+                name={names[place]}
                 loaded={loaded[place]}
                 span={states[place].span}
                 onSpan={states[place].setSpan}

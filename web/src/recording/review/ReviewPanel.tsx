@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../../texts/TextsContext";
 import { clockDuration } from "../recordingText";
 import { eventText, SYMBOL } from "./eventText";
+import { InstantScene } from "./InstantScene";
 import { InstantView } from "./InstantView";
 import { Player } from "./Player";
 import { ReviewTimeline } from "./ReviewTimeline";
@@ -13,6 +14,8 @@ import type { ShownInstant } from "./useShownInstant";
 import type { LoadedTimeline } from "./useTimeline";
 
 interface ReviewPanelProps {
+  /** Name of the recording. */
+  name: string;
   loaded: LoadedTimeline;
   span: Span | null;
   onSpan: (span: Span) => void;
@@ -33,6 +36,7 @@ interface ReviewPanelProps {
 /** Image, figures, playback, timeline and events of one recording. */
 export function ReviewPanel(props: ReviewPanelProps): ReactNode {
   const {
+    name,
     loaded,
     span,
     onSpan,
@@ -64,6 +68,7 @@ export function ReviewPanel(props: ReviewPanelProps): ReactNode {
     <div className="review" data-testid="review">
       {!timeline.is_whole && <p className="review-cut">▲ {own.cut}</p>}
       <InstantView shown={shown} images={images} />
+      <InstantScene name={name} instant={shown.instant} />
       <Player
         number={number}
         images={images}

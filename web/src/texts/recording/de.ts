@@ -38,6 +38,8 @@ export const recordingDe: RecordingTexts = {
     image: "Aufgenommenes Bild",
     imageOf: "Bild",
     noImage: "Dieses Bild lässt sich nicht zeigen.",
+    showScene: "3-D dieses Zeitpunkts anzeigen",
+    hideScene: "3-D ausblenden",
     noImages: "Diese Aufnahme enthält keine Bilder.",
     withheld: "Keine Werte zu diesem Zeitpunkt.",
     alarmsUnknown: "Die Alarme dieses Zeitpunkts wurden nicht aufgenommen.",

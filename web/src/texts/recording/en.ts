@@ -36,6 +36,8 @@ export const recordingEn = {
     image: "Recorded image",
     imageOf: "image",
     noImage: "This image cannot be shown.",
+    showScene: "Show 3-D of this instant",
+    hideScene: "Hide 3-D",
     noImages: "This recording contains no images.",
     withheld: "No numbers at this instant.",
     alarmsUnknown: "The alarms of this instant were not recorded.",
