@@ -61,7 +61,7 @@ class CurveMessage(Message):
 
 
 class CurvesMessage(Message):
-    """The displayed figures; a sample of several images has the worst of each, and the newest depth."""
+    """Figures of the shown tool; a sample of several images has the worst of each, and the newest depth."""
 
     numbers: list[int]
     """Time of the first image of each sample."""
@@ -70,6 +70,8 @@ class CurvesMessage(Message):
     angle: CurveMessage
     depth: CurveMessage
     wall: CurveMessage
+    breach: CurveMessage
+    """%, probability that the drill is through a wall, rounded up."""
 
 
 class TimelineMessage(Message):

@@ -8,6 +8,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from itertools import pairwise
+from math import isnan
 from pathlib import Path
 from typing import IO, Any, Literal, TypeAlias, TypeVar
 
@@ -21,11 +22,12 @@ from server.recording_file import Packing, Topic
 from server.recording_file.locations import Location, MessageLocations, read_content
 from tracker.navigation import Status
 from tracker.navigation.alarms import AlarmState, Change
+from tracker.navigation.figures import rounded_up
 
 # Incremented by each change of the format; an index of another version is computed again.
-VERSION = 3
+VERSION = 4
 SUFFIX = ".index.npz"
-FIGURES = ("entry", "angle", "depth", "wall")
+FIGURES = ("entry", "angle", "depth", "wall", "breach")
 STATUSES = tuple(Status)
 PACKINGS = tuple(Packing)
 # Repeated losses of images, as on a machine that is too slow, are merged into one event.
@@ -73,8 +75,8 @@ class RecordingIndex:
         images, snapshots, alarms: (n, 2) offset and length; length 0 if absent.
         packings: (n,) index in `PACKINGS`.
         sizes_px: (n, 2) width, height.
-        values, limits: (n, 4) values and limits of `FIGURES`, in their units; NaN if absent.
-        statuses: (n, 4) index in `STATUSES`; -1 if absent.
+        values, limits: (n, 5) values and limits of `FIGURES`, in mm, degrees or %; NaN if absent.
+        statuses: (n, 5) index in `STATUSES`; -1 if absent.
     """
 
     begin_unix_s: float
@@ -242,11 +244,11 @@ class _Rows:
         if image is None or image.sequence != snapshot.sequence or "tools" not in content:
             return
         self.image = None
-        assessment = _displayed_assessment(content)
-        figures = assessment.get("figures", {})
+        tool = _displayed_tool(content)
+        figures = _figures(tool)
         self.pairs.append((image, snapshot))
         self.courses.add(image.unix_s, content)
-        self.reasons.append(assessment.get("reason", ""))
+        self.reasons.append(tool.get("assessment", {}).get("reason", ""))
         self.values.append([_number(figures.get(name, {}).get("value")) for name in FIGURES])
         self.limits.append([_number(figures.get(name, {}).get("limit")) for name in FIGURES])
         self.statuses.append([_status(figures.get(name, {}).get("status")) for name in FIGURES])
@@ -370,11 +372,26 @@ def _withheld(at_s: Floats, reasons: list[str]) -> Iterable[TimelineEvent]:
         begin = place
 
 
-def _displayed_assessment(snapshot: Json) -> Mapping[str, Any]:
-    """Return the assessment of the displayed tool, otherwise that of the first tool, with its reason."""
+def _displayed_tool(snapshot: Json) -> Json:
+    """Return the displayed tool, otherwise the first tool, which has the reason for missing figures."""
     tools = snapshot["tools"]
     shown = [one for one in tools if one.get("name") == snapshot.get("displayed_tool")] or tools
-    return shown[0].get("assessment", {}) if shown else {}
+    return shown[0] if shown else {}
+
+
+def _figures(tool: Json) -> Mapping[str, Any]:
+    """Return the figures of a tool, with `breach` if it is known; empty if they were withheld.
+
+    `breach` is the probability in %, rounded up, that the drill is through a wall. Its limit is that of the
+    alarm, which also considers the drill 2 mm further.
+    """
+    displayed = tool.get("assessment", {}).get("figures", {})
+    ratio = _number(tool.get("judgement", {}).get("probability", {}).get("now_ratio"))
+    if not displayed or isnan(ratio):
+        return displayed
+    value, limit = rounded_up(100.0 * ratio, decimals=0), _number(displayed.get("risk", {}).get("limit"))
+    status = Status.UNLIMITED if isnan(limit) else Status.WITHIN if value <= limit else Status.OVER
+    return {**displayed, "breach": {"value": value, "limit": limit, "status": status}}
 
 
 def _places(locations: Iterable[Location]) -> Integers:

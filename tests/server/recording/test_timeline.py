@@ -1,6 +1,7 @@
 """The index of a recording: figures as recorded, and times of events."""
 
 import json
+from math import nan
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from server.recording.timeline import (
     FIGURES,
     STATUSES,
     _Events,
+    _figures,
     index_path,
     make_index,
     store_index,
@@ -71,12 +73,46 @@ def test_the_figures_are_those_of_the_snapshots_and_gaps_where_they_are_withheld
             assert np.isnan(index.values[number]).all()
             assert (index.statuses[number] == -1).all()
             continue
-        for column, name in enumerate(FIGURES):
+        for column, name in enumerate(("entry", "angle", "depth", "wall")):
             figure = assessment["figures"][name]
             assert index.values[number, column] == figure["value"]
             assert STATUSES[index.statuses[number, column]] == figure["status"]
     wall = STATUSES[index.statuses[DRILLED.index("breach"), FIGURES.index("wall")]]
     assert wall is Status.THROUGH
+    assert index.values[DRILLED.index("breach"), FIGURES.index("breach")] == 100.0
+
+
+@pytest.mark.parametrize(
+    ("now_ratio", "limit", "expected"),
+    [
+        (0.0, 5.0, (0.0, 5.0, Status.WITHIN)),
+        (0.05, 5.0, (5.0, 5.0, Status.WITHIN)),
+        (0.0501, 5.0, (6.0, 5.0, Status.OVER)),
+        (1.0, 5.0, (100.0, 5.0, Status.OVER)),
+        (0.3, None, (30.0, nan, Status.UNLIMITED)),
+    ],
+    ids=["none", "at the limit", "rounded up over the limit", "through", "without a limit"],
+)
+def test_the_probability_of_a_breach_is_rounded_up_and_then_compared(
+    now_ratio: float, limit: float | None, expected: tuple[float, float, Status]
+) -> None:
+    tool = {
+        "judgement": {"kind": "judgement", "probability": {"now_ratio": now_ratio}},
+        "assessment": {"kind": "assessment", "figures": {"risk": {"limit": limit}}},
+    }
+    breach = _figures(tool)["breach"]
+    assert (breach["value"], breach["limit"], breach["status"]) == pytest.approx(expected, nan_ok=True)
+
+
+def test_there_is_no_probability_of_a_breach_without_clearance_or_where_figures_were_withheld() -> None:
+    known = {"kind": "judgement", "probability": {"now_ratio": 1.0}}
+    figures = {"kind": "assessment", "figures": {"risk": {"limit": 5.0}}}
+    assert "breach" not in _figures(
+        {"judgement": {"kind": "absent", "reason": "NO_PLAN"}, "assessment": figures}
+    )
+    assert "breach" not in _figures(
+        {"judgement": known, "assessment": {"kind": "absent", "reason": "MARKER_UNSEEN"}}
+    )
 
 
 def test_the_alarms_of_an_image_are_those_that_were_evaluated_with_it(drilling: Path) -> None:
@@ -123,10 +159,12 @@ def test_images_that_share_a_sample_give_the_worst_of_each_figure(drilling: Path
     np.testing.assert_array_equal(every.values, index.values)
     few = sampled(index, 0.0, 4.0, 4)
     assert len(few.numbers) <= 6
-    entry, wall, depth = (FIGURES.index(name) for name in ("entry", "wall", "depth"))
+    entry, wall, depth, breach = (FIGURES.index(name) for name in ("entry", "wall", "depth", "breach"))
     assert np.nanmax(few.values[:, entry]) == np.nanmax(index.values[:, entry])
     assert np.nanmin(few.values[:, wall]) == np.nanmin(index.values[:, wall])
     assert few.values[-1, depth] == index.values[-1, depth]
+    # The newest image is back on the path.
+    assert sampled(index, 0.0, 4.0, 2).values[1, breach] == 100.0
     part = sampled(index, 2.0, 3.0, 1000)
     assert part.at_s[0] < 2.0
     assert part.at_s[-1] > 3.0

@@ -56,6 +56,7 @@ export const recordingDe: RecordingTexts = {
     events: "Was geschah",
     moments: "Handlungen",
     curve: "Verlauf mit Grenze",
+    breach: { name: "Risiko", unit: "%" },
     comment: {
       label: "Kommentar zu diesem Zeitpunkt",
       write: "Kommentieren bei {time}",
