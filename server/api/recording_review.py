@@ -70,6 +70,8 @@ class CurvesMessage(Message):
     angle: CurveMessage
     depth: CurveMessage
     wall: CurveMessage
+    risk: CurveMessage
+    """%, probability that the drill is through a wall, now or 2 mm further."""
 
 
 class TimelineMessage(Message):

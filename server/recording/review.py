@@ -35,7 +35,7 @@ from tracker.navigation import NavigationSnapshot
 
 JPEG_QUALITY = 85
 # Figures of which a sample of several images has the worst value; the sign makes the worst the largest.
-WORST_SIGN = {"entry": 1.0, "angle": 1.0, "wall": -1.0}
+WORST_SIGN = {"entry": 1.0, "angle": 1.0, "wall": -1.0, "risk": 1.0}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,8 +45,8 @@ class Samples:
     Attributes:
         numbers: (m,) first image of each sample.
         at_s: (m,) its time since the first image.
-        values, limits: (m, 4) values and limits of `FIGURES`; NaN if absent.
-        statuses: (m, 4) index in `STATUSES`; -1 if absent.
+        values, limits: (m, 5) values and limits of `FIGURES`; NaN if absent.
+        statuses: (m, 5) index in `STATUSES`; -1 if absent.
     """
 
     numbers: Integers

@@ -25,7 +25,7 @@ from tracker.navigation.alarms import AlarmState, Change
 # Incremented by each change of the format; an index of another version is computed again.
 VERSION = 4
 SUFFIX = ".index.npz"
-FIGURES = ("entry", "angle", "depth", "wall")
+FIGURES = ("entry", "angle", "depth", "wall", "risk")
 STATUSES = tuple(Status)
 PACKINGS = tuple(Packing)
 # Repeated losses of images, as on a machine that is too slow, are merged into one event.
@@ -75,8 +75,8 @@ class RecordingIndex:
         images, snapshots, alarms: (n, 2) offset and length; length 0 if absent.
         packings: (n,) index in `PACKINGS`.
         sizes_px: (n, 2) width, height.
-        values, limits: (n, 4) values and limits of `FIGURES`, in their units; NaN if absent.
-        statuses: (n, 4) index in `STATUSES`; -1 if absent.
+        values, limits: (n, 5) values and limits of `FIGURES`, in mm, degrees or %; NaN if absent.
+        statuses: (n, 5) index in `STATUSES`; -1 if absent.
         states, documents: (m, 3) first image to which a tracking state or the documents in use apply, offset
             and length; length 0 from the image on whose state is unknown.
     """

@@ -106,6 +106,8 @@ def test_any_instant_of_a_recording_is_reviewed(
     page.get_by_test_id("review-before").click()
     shows(page, number)
 
+    expect(page.get_by_role("img", name="Risk of breach: its curve")).to_be_visible()
+
     # A tap on the curves, and a drag over a part of them.
     plot = page.locator(".review-plot")
     plot.evaluate("plot => plot.scrollIntoView({ block: 'center' })")

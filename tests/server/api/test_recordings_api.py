@@ -165,6 +165,11 @@ def test_the_timeline_of_a_recording_is_made_by_a_job_once(door: Door) -> None:
     curve = timeline["curves"]["wall"]
     assert [one is None for one in curve["values"]] == [mode == "hidden" for mode in DRILLED]
     assert "through" in curve["statuses"]
+    risk = timeline["curves"]["risk"]
+    percent = {"path": 0.0, "hidden": None, "near": 1.0, "breach": 100.0}
+    assert risk["values"] == [percent[mode] for mode in DRILLED]
+    assert set(risk["limits"]) == {5.0, None}
+    assert [one == "over" for one in risk["statuses"]] == [mode == "breach" for mode in DRILLED]
     assert ("alarm", "BREACH") in [(one["kind"], one["code"]) for one in timeline["events"]]
     few = door.timeline(name, "?from_s=2&to_s=3&samples=5")["curves"]
     assert len(few["at_s"]) < 10

@@ -77,6 +77,7 @@ def test_the_figures_are_those_of_the_snapshots_and_gaps_where_they_are_withheld
             assert STATUSES[index.statuses[number, column]] == figure["status"]
     wall = STATUSES[index.statuses[DRILLED.index("breach"), FIGURES.index("wall")]]
     assert wall is Status.THROUGH
+    assert index.values[DRILLED.index("breach"), FIGURES.index("risk")] == 100.0
 
 
 def test_the_alarms_of_an_image_are_those_that_were_evaluated_with_it(drilling: Path) -> None:
@@ -123,10 +124,12 @@ def test_images_that_share_a_sample_give_the_worst_of_each_figure(drilling: Path
     np.testing.assert_array_equal(every.values, index.values)
     few = sampled(index, 0.0, 4.0, 4)
     assert len(few.numbers) <= 6
-    entry, wall, depth = (FIGURES.index(name) for name in ("entry", "wall", "depth"))
+    entry, wall, depth, risk = (FIGURES.index(name) for name in ("entry", "wall", "depth", "risk"))
     assert np.nanmax(few.values[:, entry]) == np.nanmax(index.values[:, entry])
     assert np.nanmin(few.values[:, wall]) == np.nanmin(index.values[:, wall])
     assert few.values[-1, depth] == index.values[-1, depth]
+    # The newest image is back on the path.
+    assert sampled(index, 0.0, 4.0, 2).values[1, risk] == 100.0
     part = sampled(index, 2.0, 3.0, 1000)
     assert part.at_s[0] < 2.0
     assert part.at_s[-1] > 3.0

@@ -52,6 +52,16 @@ test("a clearance has the wall at zero and room below it", () => {
   expect(strokes).toEqual([{ status: "through", points: [[300, 100]] }]);
 });
 
+test("a probability is shown from 0 to twice its limit, and up to 100 % without a clamp", () => {
+  const rangeAt = (value: number): readonly [number, number] => {
+    const risk: TrendFigure = { value, limit: 5, status: "within" };
+    const figures = { entry: risk, angle: risk, depth: risk, wall: risk, risk };
+    return curveOf([{ atMs: NOW, figures }], "risk", SIZE).range;
+  };
+  expect(rangeAt(1)).toEqual([-0, 10]);
+  expect(rangeAt(100)).toEqual([-0, 100]);
+});
+
 test("the way to a worse status has its colour from the last image that was better", () => {
   const samples = [sample(0.6, 1), sample(0.4, 1), sample(0.2, 3, "over"), sample(0, 3, "over")];
   expect(curveOf(samples, "entry", SIZE).strokes.map(({ status }) => status)).toEqual(["within", "over"]);

@@ -3,6 +3,9 @@ import type { FigureName } from "../panes/limits";
 import type { Status } from "../live/messages";
 import { MAX_STEP_MS, SPAN_MS, type Sample, type TrendFigure } from "./history";
 
+/** A figure, or the probability that the drill is through a wall, now or 2 mm further, in %. */
+export type CurveName = FigureName | "risk";
+
 type Point = readonly [number, number];
 
 interface Stroke {
@@ -29,11 +32,13 @@ interface Curve {
 }
 
 /** The smallest and largest range, in multiples of the limit below and above zero. Values beyond it are clamped. */
-const RANGES: Record<FigureName, { below: [number, number]; above: [number, number] }> = {
+const RANGES: Record<CurveName, { below: [number, number]; above: [number, number] }> = {
   entry: { below: [0, 0], above: [2, 4] },
   angle: { below: [0, 0], above: [2, 4] },
   depth: { below: [0, 0.5], above: [1.1, 1.4] },
   wall: { below: [1, 3], above: [3, 8] },
+  // A probability of 100 % is never clamped.
+  risk: { below: [0, 0], above: [2, Infinity] },
 };
 
 /** The chart: time of its right edge and its size; samples further apart than `maxStepMs` are not joined. */
@@ -47,7 +52,7 @@ interface Frame {
 
 export function curveOf(
   samples: readonly Sample[],
-  name: FigureName,
+  name: CurveName,
   { nowMs, width, height, spanMs = SPAN_MS, maxStepMs = MAX_STEP_MS }: Frame,
 ): Curve {
   const range = rangeOf(samples, name);
@@ -82,7 +87,7 @@ export function curveOf(
 }
 
 /** Range around the limit, widened to the values up to a maximum: a distant drill has no trend. */
-function rangeOf(samples: readonly Sample[], name: FigureName): readonly [number, number] {
+function rangeOf(samples: readonly Sample[], name: CurveName): readonly [number, number] {
   let [lowest, highest, limit] = [0, 0, 0];
   for (const { figures } of samples) {
     const figure = figures?.[name];

@@ -13,8 +13,8 @@ export type TrendFigure = Pick<FigureMessage, "value" | "limit" | "status">;
 
 export interface Sample {
   atMs: number;
-  /** Null if the figures were withheld. */
-  figures: Record<FigureName, TrendFigure> | null;
+  /** Null if the figures were withheld; `risk` is known of recordings. */
+  figures: (Record<FigureName, TrendFigure> & { risk?: TrendFigure }) | null;
 }
 
 export class TrendHistory {

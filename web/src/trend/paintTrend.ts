@@ -2,8 +2,7 @@
 import type { Status } from "../live/messages";
 import { formatFigure } from "../live/rounding";
 import { paintBitmap } from "../panes/bitmapCanvas";
-import type { FigureName } from "../panes/limits";
-import { curveOf } from "./curve";
+import { curveOf, type CurveName } from "./curve";
 import { SPAN_MS, type Sample } from "./history";
 
 /** Colours of the theme by the server's status. */
@@ -33,7 +32,7 @@ interface TrendFrame {
 
 export function paintTrend(
   canvas: HTMLCanvasElement,
-  name: FigureName,
+  name: CurveName,
   samples: readonly Sample[],
   { nowMs, spanMs = SPAN_MS, maxStepMs, hasRange = false }: TrendFrame,
 ): void {
@@ -88,7 +87,8 @@ export function paintTrend(
       context.fillText(`\u2212${spanMs / 1000} s`, 0, LABEL_PX);
       return;
     }
-    context.fillText(formatFigure(curve.range[1]), 0, LABEL_PX);
-    context.fillText(formatFigure(curve.range[0]), 0, clientHeight - 2 * inset - 3);
+    const decimals = name === "risk" ? 0 : 1;
+    context.fillText(formatFigure(curve.range[1], decimals), 0, LABEL_PX);
+    context.fillText(formatFigure(curve.range[0], decimals), 0, clientHeight - 2 * inset - 3);
   });
 }

@@ -1,13 +1,22 @@
 import { useGesture } from "@use-gesture/react";
 import { useEffect, useRef, useState, type ReactNode } from "react";
-import { FIGURES } from "../../panes/limits";
+import type { Texts } from "../../texts/catalogue";
 import { textOf } from "../../texts/text";
 import { useTexts } from "../../texts/TextsContext";
+import type { CurveName } from "../../trend/curve";
 import { paintTrend } from "../../trend/paintTrend";
 import { clockDuration } from "../recordingText";
 import { eventText, SYMBOL } from "./eventText";
 import { ratioAt, timeAt, zoomSpan, type Span } from "./span";
-import { isWithin, maxStepMs, rowsOf, samplesOf, type RecordedEvent, type Timeline } from "./timeline";
+import {
+  CURVES,
+  isWithin,
+  maxStepMs,
+  rowsOf,
+  samplesOf,
+  type RecordedEvent,
+  type Timeline,
+} from "./timeline";
 
 const LANES = ["navigation", "withheld", "alarm"] as const;
 /** A shorter drag selects an instant, a longer one a span. */
@@ -85,7 +94,7 @@ export function ReviewTimeline(props: ReviewTimelineProps): ReactNode {
     rows: rowsOf(timeline.events.filter((event) => event.kind === kind)),
   }));
   const heights = [...lanes.map(({ rows }) => rows.length), 1].map((rows) => `${ROW_PX * rows}px`);
-  const gridTemplateRows = `${heights.join(" ")} repeat(${FIGURES.length}, ${CURVE_PX}px)`;
+  const gridTemplateRows = `${heights.join(" ")} repeat(${CURVES.length}, ${CURVE_PX}px)`;
   return (
     <div className="review-timeline" data-testid="review-timeline">
       <div className="review-names" aria-hidden="true" style={{ gridTemplateRows }}>
@@ -95,9 +104,9 @@ export function ReviewTimeline(props: ReviewTimelineProps): ReactNode {
           </span>
         ))}
         <span className="review-name">{own.moments}</span>
-        {FIGURES.map((name) => (
+        {CURVES.map((name) => (
           <span key={name} className="review-name">
-            {texts.reading[name].name} <small className="unit">{texts.reading[name].unit}</small>
+            {curveTexts(name, texts).name} <small className="unit">{curveTexts(name, texts).unit}</small>
           </span>
         ))}
       </div>
@@ -132,7 +141,7 @@ export function ReviewTimeline(props: ReviewTimelineProps): ReactNode {
               </span>
             ))}
         </div>
-        {FIGURES.map((name) => (
+        {CURVES.map((name) => (
           <FigureCurve key={name} name={name} timeline={timeline} span={span} />
         ))}
         {piece !== null && <Piece piece={piece} span={span} />}
@@ -193,8 +202,12 @@ function Bar({ event, span, topPx }: BarProps): ReactNode {
   );
 }
 
+/** Name and unit of a curve, short enough for a phone. */
+const curveTexts = (name: CurveName, { reading, recording }: Texts): { name: string; unit: string } =>
+  name === "risk" ? recording.review.risk : reading[name];
+
 interface FigureCurveProps {
-  name: (typeof FIGURES)[number];
+  name: CurveName;
   timeline: Timeline;
   span: Span;
 }
@@ -224,7 +237,7 @@ function FigureCurve({ name, timeline, span }: FigureCurveProps): ReactNode {
       ref={canvas}
       className="review-curve"
       role="img"
-      aria-label={`${texts.reading[name].name}: ${texts.recording.review.curve}`}
+      aria-label={`${name === "risk" ? texts.wall.risk : texts.reading[name].name}: ${texts.recording.review.curve}`}
     />
   );
 }

@@ -22,12 +22,14 @@ const CURVES: Curves = {
   angle: curve([1, null, 1]),
   depth: curve([1, null, 1]),
   wall: curve([null, null, -0.8]),
+  risk: curve([0, null, 100]),
 };
 
 test("a figure that was withheld has no value, and every other its limit and status", () => {
   const samples = samplesOf(CURVES);
   expect(samples.map(({ atMs }) => atMs)).toEqual([0, 1000, 3000]);
   expect(samples.map(({ figures }) => figures?.entry.value)).toEqual([1, null, 1.5]);
+  expect(samples.map(({ figures }) => figures?.risk?.value)).toEqual([0, null, 100]);
   expect(samples[2]?.figures?.wall).toEqual({ value: -0.8, limit: 2, status: "within" });
 });
 

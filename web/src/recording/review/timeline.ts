@@ -1,13 +1,16 @@
 // Timeline data of a recording for the curves and the cursor. Pure.
 import type { Status } from "../../live/messages";
-import { FIGURES, type FigureName } from "../../panes/limits";
+import { FIGURES } from "../../panes/limits";
 import type { TimelineMessage } from "../../api";
+import type { CurveName } from "../../trend/curve";
 import { MAX_STEP_MS, type Sample, type TrendFigure } from "../../trend/history";
 import type { Span } from "./span";
 
 export type Timeline = TimelineMessage;
 export type Curves = Timeline["curves"];
 export type RecordedEvent = Timeline["events"][number];
+
+export const CURVES: readonly CurveName[] = [...FIGURES, "risk"];
 
 /** Samples per request; a screen has hardly more columns. */
 export const MAX_SAMPLES = 1000;
@@ -16,14 +19,14 @@ export const MAX_SAMPLES = 1000;
 export function samplesOf(curves: Curves): Sample[] {
   return curves.at_s.map((atS, row) => ({
     atMs: 1000 * atS,
-    figures: Object.fromEntries(FIGURES.map((name) => [name, figureAt(curves, name, row)])) as Record<
-      FigureName,
+    figures: Object.fromEntries(CURVES.map((name) => [name, figureAt(curves, name, row)])) as Record<
+      CurveName,
       TrendFigure
     >,
   }));
 }
 
-function figureAt(curves: Curves, name: FigureName, row: number): TrendFigure {
+function figureAt(curves: Curves, name: CurveName, row: number): TrendFigure {
   const { values, limits, statuses } = curves[name];
   const status: Status = statuses[row] ?? "unlimited";
   return { value: values[row] ?? null, limit: limits[row] ?? null, status };

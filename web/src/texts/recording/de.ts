@@ -58,6 +58,7 @@ export const recordingDe: RecordingTexts = {
     events: "Was geschah",
     moments: "Handlungen",
     curve: "Verlauf mit Grenze",
+    risk: { name: "Risiko", unit: "%" },
     comment: {
       label: "Kommentar zu diesem Zeitpunkt",
       write: "Kommentieren bei {time}",

@@ -56,6 +56,7 @@ export const recordingEn = {
     events: "What happened",
     moments: "Actions",
     curve: "its curve, with the limit",
+    risk: { name: "Risk", unit: "%" },
     comment: {
       label: "Comment on this instant",
       write: "Comment at {time}",
