@@ -164,13 +164,13 @@ def review_scenes_router(scenes: ReviewScenes) -> APIRouter:
     router = APIRouter(tags=["recordings"])
 
     @router.get("/scene/review/{key}/", include_in_schema=False)
-    async def page(key: Key, request: Request) -> Response:
+    async def scene_page(key: Key, request: Request) -> Response:
         scene = scenes.get(key)
         return Response(status_code=404) if scene is None else await scene.answer(request)
 
     # The page of viser removes the slash.
     @router.websocket("/scene/review/{key}")
-    async def watch(key: str, websocket: WebSocket) -> None:
+    async def scene_socket(key: str, websocket: WebSocket) -> None:
         scene = scenes.get(key)
         if scene is None:
             await websocket.close(status.WS_1008_POLICY_VIOLATION)
