@@ -137,7 +137,7 @@ class BoardCollection:
                 "BOARD_NOT_FOUND",
                 f"the board was not found in {name}: {found.sentence}",
                 "Take another image that is sharp and shows the whole board without glare.",
-                {"image": name, "reason": found.reason.value},
+                {"image": name, "reason": found.reason.value, "board_problem": found.sentence},
             )
         with self._lock:
             self._reject_more()

@@ -4,10 +4,14 @@ An error is raised with its code, its message and remedy in English, and its val
 catalogue has the template of that message in all languages. It is used only where the English template with
 the values of the error gives exactly the message that was raised: a translation therefore has the same
 numbers, and an error that was reworded without its translation stays English. A value may be a phrase
-(`phrases.py`), a part of a message that depends on the case; it is found in the same way.
+(`phrases`), a part of a message that depends on the case; it is found in the same way, or else its values are
+read from its English text.
 """
 
+import re
 from collections.abc import Iterator, Mapping
+from functools import cache
+from string import Formatter
 
 from server.texts.errors.catalogue import MESSAGES, REMEDIES
 from server.texts.errors.phrases import PHRASES
@@ -81,8 +85,15 @@ WORDS: Mapping[str, Mapping[str, Text]] = {
             "de": "keiner",
         },
     },
+    "divergence": {
+        "numbers that are not finite": {
+            "en": "numbers that are not finite",
+            "de": "nicht endliche Zahlen",
+        },
+    },
     "waits_for": STEPS,
 }
+_NO_TEXT = re.compile(r"(?!)")
 
 
 def reason_of_error(error: NavigationError) -> Reason:
@@ -105,7 +116,7 @@ def _values(context: Mapping[str, object]) -> Mapping[str, object]:
     values = {name: _word(name, value) for name, value in context.items()}
     for name, templates in PHRASES.items():
         if isinstance(english := context.get(name), str):
-            phrase = _translation(english, templates, values)
+            phrase = _translation(english, templates, values) or _read_phrase(english, templates)
             if phrase is None:
                 # Without it no template fits: a German sentence must not have an English part.
                 del values[name]
@@ -123,6 +134,35 @@ def _translation(english: str, templates: tuple[Text, ...], values: Mapping[str,
     if not english:
         return as_is("")
     return next((text for text in _filled(templates, values) if text["en"] == english), None)
+
+
+def _read_phrase(english: str, templates: tuple[Text, ...]) -> Text | None:
+    """Return the first template that this English phrase has the form of, with the values that are in it."""
+    for template in templates:
+        found = _pattern(template["en"]).fullmatch(english)
+        if found is not None:
+            text = next(_filled((template,), _values(found.groupdict())), None)
+            if text is not None:
+                return text
+    return None
+
+
+@cache
+def _pattern(template: str) -> re.Pattern[str]:
+    """Return the pattern of a template; of one that formats its values or has no words, one without match."""
+    parts = list(Formatter().parse(template))
+    if not any(literal for literal, *_ in parts):
+        return _NO_TEXT
+    pattern, names = "", set()
+    for literal, name, spec, conversion in parts:
+        pattern += re.escape(literal)
+        if name is None:
+            continue
+        if spec or conversion or not name.isidentifier():
+            return _NO_TEXT
+        pattern += f"(?P={name})" if name in names else f"(?P<{name}>.+?)"
+        names.add(name)
+    return re.compile(pattern, re.DOTALL)
 
 
 def _filled(templates: tuple[Text, ...], values: Mapping[str, object]) -> Iterator[Text]:

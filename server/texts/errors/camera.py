@@ -284,4 +284,154 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "de": "{skip_phrase}, höchstens {max_images}",
         },
     ),
+    "BOARD_NOT_FOUND": (
+        {
+            "en": "the board was not found in {image}: {board_problem}",
+            "de": "die Tafel wurde in {image} nicht gefunden: {board_problem}",
+        },
+        {
+            "en": "the board was not found in the image: {board_problem}",
+            "de": "die Tafel wurde im Bild nicht gefunden: {board_problem}",
+        },
+    ),
+    "TOO_FEW_VIEWS": (
+        {
+            "en": "{usable} of {views} views of the board can be used, at least {needed} are "
+            "needed{fault_hint}",
+            "de": "{usable} von {views} Ansichten der Tafel sind verwendbar, nötig mindestens "
+            "{needed}{fault_hint}",
+        },
+    ),
+    "CALIBRATION_DIVERGED": (
+        {
+            "en": "no camera fits the {views} views: {divergence}",
+            "de": "keine Kamera passt zu den {views} Ansichten: {divergence}",
+        },
+    ),
+    "ACCURACY_PLANE_UNKNOWN": (
+        {
+            "en": "the plane of the displacements is not determined: {plane_problem}",
+            "de": "die Ebene der Verschiebungen ist nicht bestimmt: {plane_problem}",
+        },
+    ),
+    "ACCURACY_INVALID": (
+        {
+            "en": "points of shape {shape} were seen at pixels of shape {px_shape}, needed (n, 2) each",
+            "de": "Punkte der Form {shape} wurden an Pixeln der Form {px_shape} gesehen, nötig je (n, 2)",
+        },
+        {
+            "en": "a coordinate is not finite",
+            "de": "eine Koordinate ist nicht endlich",
+        },
+        {
+            "en": "a point at ({point_px[0]:.1f}, {point_px[1]:.1f}) px lies outside of the camera's image "
+            "of {size_wh_px[0]}x{size_wh_px[1]} px",
+            "de": "ein Punkt bei ({point_px[0]:.1f}, {point_px[1]:.1f}) px liegt außerhalb des Bildes der "
+            "Kamera von {size_wh_px[0]}x{size_wh_px[1]} px",
+        },
+    ),
+    "BOARD_INVALID": (
+        {
+            "en": "there is no such calibration board: {board_fault}",
+            "de": "eine solche Kalibriertafel gibt es nicht: {board_fault}",
+        },
+    ),
+    "IMAGE_INVALID": (
+        {
+            "en": "an image has shape {shape} and type {dtype}, needed (h, w) or (h, w, 3) of 8 bits, at "
+            "least 16 x 16",
+            "de": "ein Bild hat die Form {shape} und den Typ {dtype}, nötig (h, w) oder (h, w, 3) mit 8 "
+            "Bit, mindestens 16 x 16",
+        },
+        {
+            "en": "an image is {given}, needed an array uint8 (h, w) or (h, w, 3)",
+            "de": "ein Bild ist {given}, nötig ein Array uint8 (h, w) oder (h, w, 3)",
+        },
+        {
+            "en": "an image is {dtype} of shape {shape}, needed uint8 (h, w) or (h, w, 3)",
+            "de": "ein Bild ist {dtype} der Form {shape}, nötig uint8 (h, w) oder (h, w, 3)",
+        },
+        {
+            "en": "the image is {dtype} of shape {shape}, needed uint8 of {size_wh_px[1]} rows and "
+            "{size_wh_px[0]} columns, grey or BGR",
+            "de": "das Bild ist {dtype} der Form {shape}, nötig uint8 mit {size_wh_px[1]} Zeilen und "
+            "{size_wh_px[0]} Spalten, grau oder BGR",
+        },
+    ),
+    "VIEW_INVALID": (
+        {
+            "en": "a view of a board has {ids} ids, object points of shape {object_shape} and image points "
+            "of shape {image_shape}, needed (n,), (n, 3), (n, 2), finite, each id once",
+            "de": "eine Ansicht einer Tafel hat {ids} Kennungen, Objektpunkte der Form {object_shape} und "
+            "Bildpunkte der Form {image_shape}, nötig (n,), (n, 3), (n, 2), endlich, jede Kennung "
+            "einmal",
+        },
+    ),
+    "DISPLACEMENTS_INVALID": (
+        {
+            "en": "the displacements cannot be used: {displacement_problem}",
+            "de": "die Verschiebungen sind nicht verwendbar: {displacement_problem}",
+        },
+    ),
+    "CAMERA_MODEL_INVALID": (
+        {
+            "en": "the camera model cannot be used: {camera_problem}",
+            "de": "das Kameramodell ist nicht verwendbar: {camera_problem}",
+        },
+    ),
+    "CAMERA_FILE_INVALID": (
+        {
+            "en": "the camera file has a value that is no number: {library_error}",
+            "de": "die Kameradatei hat einen Wert, der keine Zahl ist: {library_error}",
+        },
+        {
+            "en": "the controls of a camera are {controls}, expected integers by name",
+            "de": "die controls einer Kamera sind {controls}, erwartet ganze Zahlen mit ihren Namen",
+        },
+        {
+            "en": "the readout of a camera is {readout_ms}, expected a number of ms from 0 to "
+            "{max_readout_ms:g}",
+            "de": "die Auslesezeit einer Kamera ist {readout_ms}, erwartet eine Zahl von 0 bis "
+            "{max_readout_ms:g} ms",
+        },
+        {
+            "en": "the camera file {file} is a {given}, expected keys with values",
+            "de": "die Kameradatei {file} ist ein {given}, erwartet Schlüssel mit Werten",
+        },
+    ),
+    "READOUT_TOO_SLOW": (
+        {
+            "en": "the board moved at {speed_px_s:.0f} px/s, needed {min_speed_px_s:.0f} px/s "
+            "({readout_estimate})",
+            "de": "die Tafel bewegte sich mit {speed_px_s:.0f} px/s, nötig {min_speed_px_s:.0f} px/s "
+            "({readout_estimate})",
+        },
+    ),
+    "READOUT_ONE_WAY": (
+        {
+            "en": "the board moved one way in {forth} images and back in {back}, needed {needed} of each",
+            "de": "die Tafel bewegte sich in {forth} Bildern hin und in {back} zurück, nötig je {needed}",
+        },
+    ),
+    "READOUT_UNOBSERVABLE": (
+        {
+            "en": "this motion does not determine the readout time: {readout_estimate}, allowed "
+            "{max_sd_ms:.1f} ms",
+            "de": "diese Bewegung bestimmt die Auslesezeit nicht: {readout_estimate}, erlaubt "
+            "{max_sd_ms:.1f} ms",
+        },
+    ),
+    "READOUT_IMPOSSIBLE": (
+        {
+            "en": "{readout_estimate}: it must be between 0 and the {period_ms:.1f} ms between images",
+            "de": "{readout_estimate}: sie muss zwischen 0 und den {period_ms:.1f} ms zwischen zwei "
+            "Bildern liegen",
+        },
+    ),
+    "RULER_INVALID": (
+        {
+            "en": "the ruler cannot be used: {ruler_problem}",
+            "de": "das Lineal ist nicht verwendbar: {ruler_problem}",
+        },
+    ),
 }

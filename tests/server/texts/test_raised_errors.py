@@ -5,7 +5,10 @@ import numpy.typing as npt
 import pytest
 
 from server.texts import reason_of_error
-from tracker.errors import NavigationError
+from tracker.camera import DotBoard
+from tracker.camera.calibration import calibrate
+from tracker.camera.detection import BoardNotFound, BoardView, find_board
+from tracker.errors import CalibrationError, InvalidInput, NavigationError
 from tracker.registration.points import PointGate, PointPairs, register_points
 
 FIXED = np.array([[0.0, 0, 0], [40, 3, 0], [5, 30, 8], [22, 18, 35], [-12, 25, 20]])
@@ -74,3 +77,29 @@ def test_an_error_with_a_phrase_that_is_not_listed_stays_english() -> None:
     why = reason_of_error(odd)
     assert not why.is_translated
     assert why.message["de"] == message
+
+
+def test_a_board_that_is_not_found_has_its_reason_in_german() -> None:
+    found = find_board(np.full((480, 640), 128, np.uint8), DotBoard(columns=5, rows=4, pitch_mm=10.0))
+    assert isinstance(found, BoardNotFound)
+    error = InvalidInput(
+        "BOARD_NOT_FOUND",
+        f"the board was not found in the image: {found.sentence}",
+        "Hold the whole board still and in focus, and try again.",
+        {"reason": found.reason.value, "board_problem": found.sentence},
+    )
+    assert reason_of_error(error).message["de"] == (
+        "die Tafel wurde im Bild nicht gefunden: keine Punkte, die ein Raster bilden"
+    )
+
+
+def test_too_few_views_are_german_with_the_fault_of_the_first() -> None:
+    board = DotBoard(columns=5, rows=4, pitch_mm=10.0)
+    points = board.object_points_mm[:5]
+    view = BoardView(ids=np.arange(5), object_points_mm=points, image_points_px=points[:, :2] + 100.0)
+    with pytest.raises(CalibrationError) as raised_error:
+        calibrate([view], size_wh_px=(640, 480))
+    assert reason_of_error(raised_error.value).message["de"] == (
+        "0 von 1 Ansichten der Tafel sind verwendbar, nötig mindestens 3 (die erste unbrauchbare: 5 Punkte, "
+        "nötig mindestens 6)"
+    )
