@@ -199,7 +199,7 @@ def registration_from_document(document: Document, *, reference: str) -> Registr
             "REGISTRATION_DOCUMENT_INVALID",
             f"{document.title} cannot be read: {why}",
             "Register again.",
-            {"document_id": document.id},
+            {"document_id": document.id, "title": document.title_text, "document_problem": why},
         ) from None
     record = _as_imported(record, document)
     if record.anchored_to is AnchoredTo.REFERENCE and record.reference != reference:

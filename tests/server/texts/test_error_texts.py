@@ -15,7 +15,7 @@ from tracker.errors import RegistrationError
 
 # Error codes with at least one message or remedy that has no German yet, without those of the command line.
 # Lower it with each translation; nothing may raise it.
-MAX_UNTRANSLATED = 80
+MAX_UNTRANSLATED = 73
 
 TEMPLATES = [
     *((code, text) for code, texts in MESSAGES.items() for text in texts),
@@ -27,15 +27,6 @@ MOVED = (
     "the tip moved: it spreads by 0.52 mm (standard deviation, allowed 0.3) "
     "and by 1.20 mm at most (allowed 1)"
 )
-# Their messages have parts that depend on the rate of the images.
-COMPOSED = {
-    "CAPTURE_INTERRUPTED",
-    "CAPTURE_RATE_TOO_LOW",
-    "CAPTURE_TOO_SHORT",
-    "CAPTURE_UNSEEN",
-    "CHECK_NOT_CAPTURED",
-}
-
 # Phrases that the code composes of parts.
 JOINED = {"faults", "may", "misfit", "pixel_count"}
 
@@ -102,9 +93,7 @@ def test_each_translation_is_of_a_message_that_is_raised() -> None:
         (code, text["en"])
         for code, texts in MESSAGES.items()
         for text in texts
-        if code not in COMPOSED
-        and text["en"] not in steps
-        and shape_of(text["en"]) not in raised.get(code, ())
+        if text["en"] not in steps and shape_of(text["en"]) not in raised.get(code, ())
     ]
     assert not stale
 
@@ -112,7 +101,7 @@ def test_each_translation_is_of_a_message_that_is_raised() -> None:
 def test_each_error_with_a_translation_gives_the_values_of_its_template() -> None:
     lacking = []
     for one in error_sites():
-        if one.names is None or one.code in COMPOSED:
+        if one.names is None:
             continue
         message = [text["en"] for text in MESSAGES.get(one.code, ()) if shape_of(text["en"]) == one.message]
         remedy = [text["en"] for text in REMEDIES if shape_of(text["en"]) == one.remedy]

@@ -9,6 +9,7 @@ from tracker.camera import DotBoard
 from tracker.camera.calibration import calibrate
 from tracker.camera.detection import BoardNotFound, BoardView, find_board
 from tracker.errors import CalibrationError, InvalidInput, NavigationError
+from tracker.registration.capture import TipSample, UnseenSample, captured
 from tracker.registration.points import PointGate, PointPairs, register_points
 
 FIXED = np.array([[0.0, 0, 0], [40, 3, 0], [5, 30, 8], [22, 18, 35], [-12, 25, 20]])
@@ -103,3 +104,29 @@ def test_too_few_views_are_german_with_the_fault_of_the_first() -> None:
         "0 von 1 Ansichten der Tafel sind verwendbar, nötig mindestens 3 (die erste unbrauchbare: 5 Punkte, "
         "nötig mindestens 6)"
     )
+
+
+def test_a_capture_of_few_images_is_german_with_rate_reason_and_remedy() -> None:
+    # A fast camera, of which every tenth image is tracked.
+    times_s = [2.0 * number for number in range(4)]
+    unseen = [
+        UnseenSample(at_s=at_s, image_number=int(20 * at_s), reason="the camera is not calibrated")
+        for at_s in times_s
+    ]
+    seen = [
+        TipSample(
+            at_s=at_s, image_number=int(20 * at_s), tip_in_anchor_mm=np.zeros(3), covariance_mm2=np.eye(3)
+        )
+        for at_s in times_s
+    ]
+    errors = []
+    for samples in (unseen, seen):
+        with pytest.raises(NavigationError) as raised_error:
+            captured(samples)
+        errors.append(reason_of_error(raised_error.value))
+    assert errors[0].message["de"] == (
+        "die Spitze war in 0 von 4 Bildern bei 0.5 Bildern/s (die Kamera liefert 20.0) bekannt "
+        "und in 4 nicht (die Kamera ist nicht kalibriert), nötig in allen"
+    )
+    assert "bei 0.5 Bildern/s (die Kamera liefert 20.0)" in errors[1].message["de"]
+    assert "Der Rechner überspringt Bilder" in errors[1].remedy["de"]

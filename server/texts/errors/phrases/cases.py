@@ -112,4 +112,20 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "de": " und von {importer} importiert",
         },
     ),
+    "document_problem": (
+        {
+            "en": "{count} values are invalid",
+            "de": "{count} Werte sind ungültig",
+        },
+        {
+            "en": "a pose is not a rigid motion: its rotation deviates from orthonormal by {off}, allowed "
+            "{allowed}, and all numbers must be finite",
+            "de": "eine Lage ist keine starre Bewegung: ihre Drehung weicht um {off} von orthonormal ab, "
+            "erlaubt {allowed}, und alle Zahlen müssen endlich sein",
+        },
+        {
+            "en": "it has {files} files, expected 1",
+            "de": "es hat {files} Dateien, erwartet 1",
+        },
+    ),
 }

@@ -125,4 +125,111 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
             "de": "Zoll",
         },
     ),
+    "at_rate": (
+        {
+            "en": " at {rate_hz} images/s",
+            "de": " bei {rate_hz} Bildern/s",
+        },
+        NO_TEXT,
+        {
+            "en": " at {rate_text}",
+            "de": " bei {rate_text}",
+        },
+    ),
+    "rate_text": (
+        {
+            "en": "{rate_hz} images/s",
+            "de": "{rate_hz} Bildern/s",
+        },
+        {
+            "en": "{rate_hz} images/s{camera_rate}",
+            "de": "{rate_hz} Bildern/s{camera_rate}",
+        },
+    ),
+    "rate_remedy": (
+        NO_TEXT,
+        {
+            "en": " The machine skips images: end other programs, or ask the camera for smaller images "
+            "(camera.width, camera.height).",
+            "de": " Der Rechner überspringt Bilder: andere Programme beenden, oder von der Kamera kleinere "
+            "Bilder verlangen (camera.width, camera.height).",
+        },
+        {
+            "en": " The camera is slow: give it more light, or ask it for smaller images or more of them "
+            "(camera.width, camera.height, camera.rate_hz).",
+            "de": " Die Kamera ist langsam: ihr mehr Licht geben, oder kleinere oder mehr Bilder von ihr "
+            "verlangen (camera.width, camera.height, camera.rate_hz).",
+        },
+    ),
+    "order": (
+        NO_TEXT,
+        {
+            "en": ", out of order",
+            "de": ", in falscher Reihenfolge",
+        },
+    ),
+    "hold_hint": (
+        NO_TEXT,
+        {
+            "en": " for {hold_s} s at {rate_text},",
+            "de": " für {hold_s} s bei {rate_text}",
+        },
+    ),
+    "left_hint": (
+        NO_TEXT,
+        {
+            "en": " for another {left_s} s,",
+            "de": " noch {left_s} s",
+        },
+    ),
+    "unseen_reason": (
+        {
+            "en": "the tool's marker is not seen",
+            "de": "der Marker des Instruments ist nicht zu sehen",
+        },
+        {
+            "en": "the tool's marker is in view twice",
+            "de": "der Marker des Instruments ist doppelt im Bild",
+        },
+        {
+            "en": "the position of the tip is uncertain by millimetres",
+            "de": "der Ort der Spitze ist um Millimeter unsicher",
+        },
+        {
+            "en": "the camera is not calibrated",
+            "de": "die Kamera ist nicht kalibriert",
+        },
+        {
+            "en": "focus or zoom of the camera has changed since the calibration",
+            "de": "Schärfe oder Zoom der Kamera wurde seit der Kalibrierung verstellt",
+        },
+        {
+            "en": "the marker '{marker}' on the patient is not seen",
+            "de": "der Marker „{marker}“ am Patienten ist nicht zu sehen",
+        },
+    ),
+    "worst_observation": (
+        {
+            "en": "needle '{name}'",
+            "de": "Nadel „{name}“",
+        },
+        {
+            "en": "touched point '{name}'",
+            "de": "der angetastete Punkt „{name}“",
+        },
+        {
+            "en": "the camera's tilt, by {tilt_deg} deg",
+            "de": "die Neigung der Kamera, um {tilt_deg}°",
+        },
+        {
+            "en": "the camera's distance, by {distance_mm} mm",
+            "de": "der Abstand der Kamera, um {distance_mm} mm",
+        },
+    ),
+    "camera_rate": (
+        {
+            "en": " (the camera gives {camera_hz})",
+            "de": " (die Kamera liefert {camera_hz})",
+        },
+    ),
 }
