@@ -50,12 +50,13 @@ def _sites_in(path: Path) -> Iterator[ErrorSite]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call) or len(node.args) < 3:
             continue
-        code, message, remedy = node.args[:3]
-        if isinstance(code, ast.Constant) and isinstance(code.value, str) and CODE.fullmatch(code.value):
-            where = f"{path.relative_to(ROOT)}:{node.lineno}"
-            yield ErrorSite(
-                where, code.value, _shape(message, constants), _shape(remedy, constants), _names(node)
-            )
+        given, message, remedy = node.args[:3]
+        for code in [given.body, given.orelse] if isinstance(given, ast.IfExp) else [given]:
+            if isinstance(code, ast.Constant) and isinstance(code.value, str) and CODE.fullmatch(code.value):
+                where = f"{path.relative_to(ROOT)}:{node.lineno}"
+                yield ErrorSite(
+                    where, code.value, _shape(message, constants), _shape(remedy, constants), _names(node)
+                )
 
 
 def _names(call: ast.Call) -> frozenset[str] | None:

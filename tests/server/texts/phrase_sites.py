@@ -90,8 +90,10 @@ def _traced(
     if value.id in names:
         index = names.index(value.id) - (names[0] == "self")
         for node in ast.walk(tree):
-            if isinstance(node, ast.Call) and _is_call_of(function.name, node) and len(node.args) > index:
-                yield from phrases_of(node.args[index])
+            if isinstance(node, ast.Call) and _is_call_of(function.name, node):
+                named = [one.value for one in node.keywords if one.arg == value.id]
+                for given in (*node.args[index : index + 1], *named):
+                    yield from phrases_of(given)
 
 
 def _is_call_of(name: str, call: ast.Call) -> bool:

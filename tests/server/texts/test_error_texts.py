@@ -15,7 +15,7 @@ from tracker.errors import RegistrationError
 
 # Error codes with at least one message or remedy that has no German yet, without those of the command line.
 # Lower it with each translation; nothing may raise it.
-MAX_UNTRANSLATED = 73
+MAX_UNTRANSLATED = 56
 
 TEMPLATES = [
     *((code, text) for code, texts in MESSAGES.items() for text in texts),
