@@ -15,6 +15,7 @@ from string import Formatter
 
 from server.texts.errors.catalogue import MESSAGES, REMEDIES
 from server.texts.errors.phrases import PHRASES
+from server.texts.errors.phrases.system import SYSTEM_ERRORS
 from server.texts.language import Text
 from server.texts.reason import Reason, as_is, filled
 from server.texts.steps import KINDS, METHODS, STEPS
@@ -46,7 +47,19 @@ WORDS: Mapping[str, Mapping[str, Text]] = {
             "de": "OP-Bildschirm",
         },
     },
+    "installed": _NONE,
     "markers": _NONE,
+    "reason": {
+        "it is not open": {
+            "en": "it is not open",
+            "de": "sie ist nicht geöffnet",
+        },
+        "no complete image arrived": {
+            "en": "no complete image arrived",
+            "de": "es kam kein vollständiges Bild an",
+        },
+    },
+    "system_error": {text["en"]: text for text in SYSTEM_ERRORS},
     "plane": {
         "axial": {
             "en": "axial",

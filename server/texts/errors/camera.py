@@ -5,8 +5,20 @@ from collections.abc import Mapping
 from server.texts.language import Text
 
 CAMERA: Mapping[str, tuple[Text, ...]] = {
-    "CAMERA_NOT_OPENED": ({"en": "{camera} cannot be opened", "de": "{camera} lässt sich nicht öffnen"},),
-    "CAMERA_STOPPED": ({"en": "{camera} sent no image", "de": "{camera} lieferte kein Bild"},),
+    "CAMERA_NOT_OPENED": (
+        {
+            "en": "{camera} cannot be opened: {reason}",
+            "de": "{camera} lässt sich nicht öffnen: {reason}",
+        },
+        {"en": "{camera} cannot be opened", "de": "{camera} lässt sich nicht öffnen"},
+    ),
+    "CAMERA_STOPPED": (
+        {
+            "en": "{camera} sent no image: {reason}",
+            "de": "{camera} lieferte kein Bild: {reason}",
+        },
+        {"en": "{camera} sent no image", "de": "{camera} lieferte kein Bild"},
+    ),
     "CAMERA_TORN": (
         {
             "en": "{camera} sent {images} images in a row that are incomplete or cannot be decoded",
@@ -129,6 +141,12 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
     ),
     "CAMERA_FILE_INCOMPLETE": ({"en": "the camera file lacks {keys}", "de": "der Kameradatei fehlt {keys}"},),
     "CAMERA_SIZE_MISMATCH": (
+        {
+            "en": "{image_subject} {image_size_wh_px[0]}x{image_size_wh_px[1]} px, but the camera was "
+            "calibrated at {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px",
+            "de": "{image_subject} {image_size_wh_px[0]}x{image_size_wh_px[1]} px, die Kamera wurde aber "
+            "mit {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px kalibriert",
+        },
         {
             "en": "images of the board are {image_size_wh_px[0]}x{image_size_wh_px[1]} px, but the camera "
             "was calibrated at {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px, and the readout "
@@ -432,6 +450,148 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the ruler cannot be used: {ruler_problem}",
             "de": "das Lineal ist nicht verwendbar: {ruler_problem}",
+        },
+    ),
+    "FOLDER_IMAGE_UNREADABLE": (
+        {
+            "en": "the image {file} cannot be used: {image_problem}",
+            "de": "das Bild {file} ist nicht verwendbar: {image_problem}",
+        },
+        {
+            "en": "{images} images cannot be used: {unusable_images}{more_images}",
+            "de": "{images} Bilder sind nicht verwendbar: {unusable_images}{more_images}",
+        },
+    ),
+    "FOLDER_WITHOUT_IMAGES": (
+        {
+            "en": "the folder {folder} has 0 images ({suffixes})",
+            "de": "der Ordner {folder} enthält 0 Bilder ({suffixes})",
+        },
+    ),
+    "SOURCE_NOT_FOUND": (
+        {
+            "en": "the folder {folder} cannot be listed: {system_error}",
+            "de": "der Ordner {folder} ist nicht lesbar: {system_error}",
+        },
+        {
+            "en": "the source {file} cannot be opened: {source_problem}",
+            "de": "die Quelle {file} lässt sich nicht öffnen: {source_problem}",
+        },
+    ),
+    "VIDEO_FILE_UNREADABLE": (
+        {
+            "en": "the source {file} cannot be opened: {source_problem}",
+            "de": "die Quelle {file} lässt sich nicht öffnen: {source_problem}",
+        },
+        {
+            "en": "{file} ({bytes} bytes) is not a usable video file: {video_problem}",
+            "de": "{file} ({bytes} Bytes) ist keine verwendbare Videodatei: {video_problem}",
+        },
+    ),
+    "CAMERA_MODE_NOT_GRANTED": (
+        {
+            "en": "the phone sends other images than requested: the settings request {requested}, "
+            "{granted} was granted",
+            "de": "das Telefon sendet andere Bilder als verlangt: die Einstellungen verlangen {requested}, "
+            "gewährt wurde {granted}",
+        },
+    ),
+    "PLUGIN_SOURCE_FAILED": (
+        {
+            "en": "the plug-in {plugin} {plugin_problem}: {library_error}",
+            "de": "das Plug-in {plugin} {plugin_problem}: {library_error}",
+        },
+    ),
+    "PLUGIN_NOT_INSTALLED": (
+        {
+            "en": "there is no plug-in {plugin} in {group}; installed: {installed}",
+            "de": "in {group} gibt es kein Plug-in {plugin}; installiert: {installed}",
+        },
+    ),
+    "PLUGIN_AMBIGUOUS": (
+        {
+            "en": "{count} packages have a plug-in {plugin} in {group}: {packages}",
+            "de": "{count} Pakete haben ein Plug-in {plugin} in {group}: {packages}",
+        },
+    ),
+    "PLUGIN_NOT_LOADED": (
+        {
+            "en": "the plug-in {plugin} cannot be imported: {library_error}",
+            "de": "das Plug-in {plugin} lässt sich nicht importieren: {library_error}",
+        },
+    ),
+    "STREAM_UNREACHABLE": (
+        {
+            "en": "the stream {stream} cannot be reached at {host}:{port}: {stream_problem}",
+            "de": "der Videostrom {stream} ist unter {host}:{port} nicht erreichbar: {stream_problem}",
+        },
+    ),
+    "LATENCY_CODE_NOT_READ": (
+        {
+            "en": "{code_count}, the minimum is {min_timed}",
+            "de": "{code_count}, mindestens {min_timed}",
+        },
+    ),
+    "OVERLAY_SIZE": (
+        {
+            "en": "the image has {image_wh_px[0]}x{image_wh_px[1]} px, but its snapshot is of "
+            "{size_wh_px[0]}x{size_wh_px[1]} px",
+            "de": "das Bild hat {image_wh_px[0]}x{image_wh_px[1]} px, sein Ergebnis ist aber von "
+            "{size_wh_px[0]}x{size_wh_px[1]} px",
+        },
+    ),
+    "IMAGE_NOT_ENCODED": (
+        {
+            "en": "an image of shape {shape} cannot be encoded as JPEG",
+            "de": "ein Bild der Form {shape} lässt sich nicht als JPEG kodieren",
+        },
+    ),
+    "BOARD_DOTS_UNPRINTABLE": (
+        {
+            "en": "dots of {widest_mm:g} mm at a distance of {nearest_mm:.3g} mm cannot be separated, "
+            "allowed: above 0 to {max_dot_mm:.3g} mm",
+            "de": "Punkte von {widest_mm:g} mm im Abstand von {nearest_mm:.3g} mm lassen sich nicht "
+            "trennen, erlaubt: über 0 bis {max_dot_mm:.3g} mm",
+        },
+    ),
+    "BOARD_TOO_LARGE": (
+        {
+            "en": "the board needs {needed_mm[0]:.1f} x {needed_mm[1]:.1f} mm with its white margin, but "
+            "{paper} has {free_mm[0]:.1f} x {free_mm[1]:.1f} mm in portrait orientation",
+            "de": "die Tafel braucht {needed_mm[0]:.1f} x {needed_mm[1]:.1f} mm mit ihrem weißen Rand, "
+            "{paper} hat im Hochformat aber {free_mm[0]:.1f} x {free_mm[1]:.1f} mm",
+        },
+    ),
+    "PAPER_UNKNOWN": (
+        {
+            "en": "the paper size '{paper}' is unknown",
+            "de": "das Papierformat „{paper}“ ist unbekannt",
+        },
+    ),
+    "MARKER_SIDE_UNPRINTABLE": (
+        {
+            "en": "a marker of {side_mm:g} mm cannot be printed on A4 with its white margin, allowed: "
+            "{min_side_mm:g} to {max_side_mm:g} mm",
+            "de": "ein Marker von {side_mm:g} mm lässt sich mit seinem weißen Rand nicht auf A4 drucken, "
+            "erlaubt: {min_side_mm:g} bis {max_side_mm:g} mm",
+        },
+    ),
+    "MARKER_IMAGE_INVALID": (
+        {
+            "en": "the image of marker '{name}' cannot be used: {marker_problem}",
+            "de": "das Bild des Markers „{name}“ ist nicht verwendbar: {marker_problem}",
+        },
+    ),
+    "SCORE_SETTING_INVALID": (
+        {
+            "en": "the tracker's setting {setting} is {value:g}, allowed 0 to 1",
+            "de": "die Einstellung {setting} des Trackers ist {value:g}, erlaubt 0 bis 1",
+        },
+    ),
+    "REHEARSAL_SETTING_INVALID": (
+        {
+            "en": "the rehearsal's {key} is {value}, allowed is {allowed_values}",
+            "de": "{key} des Probebetriebs ist {value}, erlaubt ist {allowed_values}",
         },
     ),
 }

@@ -227,6 +227,12 @@ CASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "CT_SLICES_SHIFTED": (
         {
+            "en": "{gap_problem}: one lies {off_mm:.3f} mm from its regular position, allowed "
+            "{allowed_mm:.3f} mm",
+            "de": "{gap_problem}: eine liegt {off_mm:.3f} mm neben ihrem regelmäßigen Ort, erlaubt "
+            "{allowed_mm:.3f} mm",
+        },
+        {
             "en": "two slices lie in one plane, {shift_mm:.2f} mm apart, allowed {max_shift_mm:.2f} mm",
             "de": "zwei Schichten liegen in einer Ebene, {shift_mm:.2f} mm auseinander, erlaubt "
             "{max_shift_mm:.2f} mm",
@@ -395,6 +401,12 @@ CASES: Mapping[str, tuple[Text, ...]] = {
         },
     ),
     "CT_SPACING_UNEVEN": (
+        {
+            "en": "{gap_problem}: one lies {off_mm:.3f} mm from its regular position, allowed "
+            "{allowed_mm:.3f} mm",
+            "de": "{gap_problem}: eine liegt {off_mm:.3f} mm neben ihrem regelmäßigen Ort, erlaubt "
+            "{allowed_mm:.3f} mm",
+        },
         {
             "en": "the slices lie between {min_mm:.3f} and {max_mm:.3f} mm apart, mostly {spacing_mm:.3f} "
             "mm: after slice {after} of {slices}, in the order of their positions, the next is "

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+# Only a terminal shows their errors, which are in English.
+ENGLISH = ("server/cli/", "server/config_file.py", "server/pose_file/", "server/security/tls/selection.py")
 ROOT = Path(__file__).resolve().parents[3]
 CODE = re.compile(r"[A-Z][A-Z0-9]*(_[A-Z0-9]+)+")
 # Names of values are left out: a template in the catalogue names what an f-string computes.
@@ -31,10 +33,10 @@ class ErrorSite:
 def error_sites() -> tuple[ErrorSite, ...]:
     """Return all places in tracker and server at which an error with a literal code is made.
 
-    Errors of the command line are left out: no page shows them, and it is in English.
+    Errors of the command line and of a start that fails are left out, and warnings of a calibration's report.
     """
     paths = [path for folder in ("server", "tracker") for path in sorted((ROOT / folder).rglob("*.py"))]
-    shown = [path for path in paths if "cli" not in path.relative_to(ROOT).parts]
+    shown = [path for path in paths if not str(path.relative_to(ROOT)).startswith(ENGLISH)]
     return tuple(site for path in shown for site in _sites_in(path))
 
 
@@ -48,7 +50,7 @@ def _sites_in(path: Path) -> Iterator[ErrorSite]:
         if isinstance(target, ast.Name)
     }
     for node in ast.walk(tree):
-        if not isinstance(node, ast.Call) or len(node.args) < 3:
+        if not isinstance(node, ast.Call) or len(node.args) < 3 or ast.unparse(node.func) == "warn":
             continue
         given, message, remedy = node.args[:3]
         for code in [given.body, given.orelse] if isinstance(given, ast.IfExp) else [given]:

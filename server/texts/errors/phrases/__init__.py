@@ -13,6 +13,7 @@ from server.texts.errors.phrases.camera import CAMERA
 from server.texts.errors.phrases.cases import CASES
 from server.texts.errors.phrases.recordings import RECORDINGS
 from server.texts.errors.phrases.registration import REGISTRATION
+from server.texts.errors.phrases.tool import TOOL
 from server.texts.language import Text
 
 PHRASES: Mapping[str, tuple[Text, ...]] = {
@@ -22,4 +23,5 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
     **CASES,
     **RECORDINGS,
     **REGISTRATION,
+    **TOOL,
 }

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 
+from server.texts.errors.phrases.system import SYSTEM_ERRORS
 from server.texts.language import NO_TEXT, Text
 
 CAMERA: Mapping[str, tuple[Text, ...]] = {
@@ -316,6 +317,172 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "horizontal",
             "de": "horizontale",
+        },
+    ),
+    "image_problem": (
+        {
+            "en": "its {bytes} bytes are not a decodable image",
+            "de": "seine {bytes} Bytes sind kein dekodierbares Bild",
+        },
+        {
+            "en": "it cannot be read",
+            "de": "es ist nicht lesbar",
+        },
+        *SYSTEM_ERRORS,
+    ),
+    "unusable_images": (
+        {
+            "en": "{file} ({image_problem}), {unusable_images}",
+            "de": "{file} ({image_problem}), {unusable_images}",
+        },
+        {
+            "en": "{file} ({image_problem})",
+            "de": "{file} ({image_problem})",
+        },
+    ),
+    "more_images": (
+        NO_TEXT,
+        {
+            "en": " and {count} more",
+            "de": " und {count} weitere",
+        },
+    ),
+    "source_problem": (
+        {
+            "en": "it does not exist",
+            "de": "sie existiert nicht",
+        },
+        {
+            "en": "it is a pipe, a socket or a device, not a file",
+            "de": "sie ist eine Pipe, ein Socket oder ein Gerät, keine Datei",
+        },
+        {
+            "en": "it is empty (0 bytes)",
+            "de": "sie ist leer (0 Bytes)",
+        },
+        {
+            "en": "it cannot be read",
+            "de": "sie ist nicht lesbar",
+        },
+        *SYSTEM_ERRORS,
+    ),
+    "video_problem": (
+        {
+            "en": "it is not open",
+            "de": "sie ist nicht geöffnet",
+        },
+        {
+            "en": "it cannot be decoded as video",
+            "de": "sie lässt sich nicht als Video dekodieren",
+        },
+        {
+            "en": "it has no image that can be decoded",
+            "de": "sie hat kein dekodierbares Bild",
+        },
+    ),
+    "stream_problem": (
+        {
+            "en": "no answer within {limit_s} s",
+            "de": "keine Antwort innerhalb von {limit_s} s",
+        },
+        *SYSTEM_ERRORS,
+    ),
+    "plugin_problem": (
+        {
+            "en": "cannot be opened",
+            "de": "lässt sich nicht öffnen",
+        },
+        {
+            "en": "returned no image",
+            "de": "lieferte kein Bild",
+        },
+    ),
+    "code_count": (
+        {
+            "en": "the code was read in {read} of {images} images",
+            "de": "der Code war in {read} von {images} Bildern lesbar",
+        },
+        {
+            "en": "{timed} of {codes} codes could be timed",
+            "de": "von {codes} Codes ließ sich bei {timed} die Zeit messen",
+        },
+    ),
+    "image_subject": (
+        {
+            "en": "images are",
+            "de": "Bilder haben",
+        },
+        {
+            "en": "{image} is",
+            "de": "{image} hat",
+        },
+    ),
+    "omit_hint": (
+        NO_TEXT,
+        {
+            "en": "Omit the image if it is from another camera. ",
+            "de": "Das Bild weglassen, wenn es von einer anderen Kamera ist. ",
+        },
+    ),
+    "scaling_hint": (
+        {
+            "en": "If both sizes show the same field of view, set camera.same_sensor_area, and the "
+            "calibration is scaled.",
+            "de": "Zeigen beide Größen dasselbe Bildfeld, camera.same_sensor_area setzen, dann wird die "
+            "Kalibrierung skaliert.",
+        },
+        {
+            "en": "It is never scaled to another aspect ratio, because the field of view differs.",
+            "de": "Auf ein anderes Seitenverhältnis wird sie nie skaliert, weil das Bildfeld ein anderes "
+            "ist.",
+        },
+    ),
+    "marker_problem": (
+        {
+            "en": "it is {dtype} with {dimensions} dimensions, needed uint8 grey (h, w)",
+            "de": "es ist {dtype} mit {dimensions} Dimensionen, nötig uint8 grau (h, w)",
+        },
+        {
+            "en": "it is {width}x{height} px, at least {min_side}x{min_side}",
+            "de": "es hat {width}x{height} px, mindestens {min_side}x{min_side}",
+        },
+        {
+            "en": "it is {width}x{height} px, and a square may differ by {percent}",
+            "de": "es hat {width}x{height} px, und ein Quadrat darf um {percent} abweichen",
+        },
+        {
+            "en": "its contrast is {contrast} grey levels, at least {min_contrast}",
+            "de": "sein Kontrast ist {contrast} Graustufen, mindestens {min_contrast}",
+        },
+        {
+            "en": "{dark} of its border is dark, at least {min_dark}",
+            "de": "{dark} seines Randes sind dunkel, mindestens {min_dark}",
+        },
+    ),
+    "allowed_values": (
+        {
+            "en": "a number from 0 (none) to {high} (very hard)",
+            "de": "eine Zahl von 0 (keine) bis {high} (sehr stark)",
+        },
+        {
+            "en": "a whole number from {low} to {high}",
+            "de": "eine ganze Zahl von {low} bis {high}",
+        },
+        {
+            "en": "a number from 0 to {high}",
+            "de": "eine Zahl von 0 bis {high}",
+        },
+        {
+            "en": "a number above 0",
+            "de": "eine Zahl über 0",
+        },
+        {
+            "en": "sides from {low} to {high} px",
+            "de": "Seiten von {low} bis {high} px",
+        },
+        {
+            "en": "seconds from {low} to {high}",
+            "de": "Sekunden von {low} bis {high}",
         },
     ),
 }

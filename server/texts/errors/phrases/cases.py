@@ -765,4 +765,14 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "de": "Bilder eines Bildschirms (Secondary Captures)",
         },
     ),
+    "gap_problem": (
+        {
+            "en": "the slices lie between {min_mm} and {max_mm} mm apart",
+            "de": "die Schichten liegen zwischen {min_mm} und {max_mm} mm auseinander",
+        },
+        {
+            "en": "the slices are shifted against each other within their planes",
+            "de": "die Schichten sind in ihren Ebenen gegeneinander verschoben",
+        },
+    ),
 }

@@ -53,4 +53,14 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
             "de": "ihr Endeintrag fehlt",
         },
     ),
+    "encoder_problem": (
+        {
+            "en": "they are written with PyAV, which is not installed",
+            "de": "dazu dient PyAV, das nicht installiert ist",
+        },
+        {
+            "en": "the FFmpeg of the installed PyAV lacks {codec}",
+            "de": "dem FFmpeg des installierten PyAV fehlt {codec}",
+        },
+    ),
 }

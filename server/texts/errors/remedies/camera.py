@@ -331,4 +331,105 @@ CAMERA: tuple[Text, ...] = (
         "seen.",
         "de": "V und H von der Kamera zum Objekt in mm neu messen, und eine Verschiebung, die zu sehen ist.",
     },
+    {
+        "en": "Replace it or remove it from the folder; it is skipped until then.",
+        "de": "Es ersetzen oder aus dem Ordner entfernen; bis dahin wird es übersprungen.",
+    },
+    {
+        "en": "Replace them or remove them from the folder; they are skipped until then.",
+        "de": "Sie ersetzen oder aus dem Ordner entfernen; bis dahin werden sie übersprungen.",
+    },
+    {
+        "en": "Put images into the folder, or give another folder; it is retried automatically.",
+        "de": "Bilder in den Ordner legen, oder einen anderen Ordner angeben; es wird automatisch neu "
+        "versucht.",
+    },
+    {
+        "en": "Check the path in camera.source or --source; it is retried automatically.",
+        "de": "Den Pfad in camera.source oder --source prüfen; es wird automatisch neu versucht.",
+    },
+    {
+        "en": "Give a complete video file (MP4, MOV, AVI or MKV); copy or export a truncated file again.",
+        "de": "Eine vollständige Videodatei angeben (MP4, MOV, AVI oder MKV); eine abgeschnittene Datei "
+        "neu kopieren oder exportieren.",
+    },
+    {
+        "en": "Set camera.width, camera.height and camera.rate_hz to a mode of the phone's camera, or to "
+        "null.",
+        "de": "camera.width, camera.height und camera.rate_hz auf einen Modus der Kamera des Telefons oder "
+        "auf null setzen.",
+    },
+    {
+        "en": "Check the camera of the plug-in and its address in camera.source; it is retried "
+        "automatically.",
+        "de": "Die Kamera des Plug-ins und ihre Adresse in camera.source prüfen; es wird automatisch neu "
+        "versucht.",
+    },
+    {
+        "en": "Install its package into the environment of Coaxial, or correct its name in the settings.",
+        "de": "Sein Paket in die Umgebung von Coaxial installieren, oder seinen Namen in den Einstellungen "
+        "berichtigen.",
+    },
+    {
+        "en": "Uninstall all of them but one.",
+        "de": "Alle bis auf eines deinstallieren.",
+    },
+    {
+        "en": "Correct or update its package, then start again.",
+        "de": "Sein Paket berichtigen oder aktualisieren, dann neu starten.",
+    },
+    {
+        "en": "Check address, cable and power of the camera; it is retried automatically.",
+        "de": "Adresse, Kabel und Strom der Kamera prüfen; es wird automatisch neu versucht.",
+    },
+    {
+        "en": "Point the camera at the screen, darken the room, or move closer until the code is large.",
+        "de": "Die Kamera auf den Bildschirm richten, den Raum abdunkeln, oder näher herangehen, bis der "
+        "Code groß ist.",
+    },
+    {
+        "en": "Draw each snapshot into the image from which it was computed.",
+        "de": "Jedes Ergebnis in das Bild zeichnen, aus dem es berechnet wurde.",
+    },
+    {
+        "en": "Use images with 1 or 3 channels and at most 65,500 px on a side.",
+        "de": "Bilder mit 1 oder 3 Kanälen und höchstens 65 500 px Seitenlänge verwenden.",
+    },
+    {
+        "en": "Give a smaller --dot-mm, or a larger --pitch-mm; larger dots have 1.5 times --dot-mm.",
+        "de": "--dot-mm kleiner oder --pitch-mm größer angeben; größere Punkte haben das 1,5-Fache von "
+        "--dot-mm.",
+    },
+    {
+        "en": "Use fewer or smaller dots or squares, or a larger paper with --paper A3.",
+        "de": "Weniger oder kleinere Punkte oder Quadrate verwenden, oder ein größeres Papier mit --paper "
+        "A3.",
+    },
+    {
+        "en": "Give --paper with one of {papers}.",
+        "de": "--paper mit einem von {papers} angeben.",
+    },
+    {
+        "en": "Give another side with --side-mm.",
+        "de": "Mit --side-mm eine andere Seitenlänge angeben.",
+    },
+    {
+        "en": "{omit_hint}Set the camera to {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px, or "
+        "calibrate it at {image_size_wh_px[0]}x{image_size_wh_px[1]} px. {scaling_hint}",
+        "de": "{omit_hint}Die Kamera auf {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px stellen, "
+        "oder sie mit {image_size_wh_px[0]}x{image_size_wh_px[1]} px kalibrieren. {scaling_hint}",
+    },
+    {
+        "en": "Give a square grey image that the black square fills edge to edge, with no white margin.",
+        "de": "Ein quadratisches graues Bild angeben, das das schwarze Quadrat von Rand zu Rand füllt, "
+        "ohne weißen Rand.",
+    },
+    {
+        "en": "Set a ratio between 0 and 1.",
+        "de": "Ein Verhältnis zwischen 0 und 1 setzen.",
+    },
+    {
+        "en": "Set {key} to {allowed_values}.",
+        "de": "{key} neu setzen: {allowed_values}.",
+    },
 )
