@@ -121,7 +121,7 @@ def parse_part(form: type[Shape], text: bytes, *, where: str) -> Shape:
         first = error.errors(include_input=False, include_url=False)[0]
         key = ".".join(str(step) for step in first["loc"])
         raise archive_error(
-            f"{where} has an invalid value at {key} ({first['msg']})", where=where, key=key
+            f"{where}: {key or 'JSON'} is invalid ({first['msg']})", where=where, key=key
         ) from error
 
 

@@ -539,8 +539,8 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "de": "es ist nicht lesbar ({library_error})",
         },
         {
-            "en": "{part} has an invalid value at {key} ({library_error})",
-            "de": "{part} hat einen ungültigen Wert bei {key} ({library_error})",
+            "en": "{part}: {key} is invalid ({library_error})",
+            "de": "{part}: {key} ist ungültig ({library_error})",
         },
         {
             "en": "its part '{part}' does not belong to a case",
