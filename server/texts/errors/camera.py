@@ -256,6 +256,12 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
     ),
     "CAMERA_CHANGED": (
         {
+            "en": "{control} of the camera changed from {calibrated} to {now} since the calibration, which "
+            "is therefore invalid",
+            "de": "{control} der Kamera änderte sich seit der Kalibrierung von {calibrated} auf {now}, sie "
+            "ist damit ungültig",
+        },
+        {
             "en": "{control} of the camera changed from {before} to {now} while views were taken",
             "de": "{control} der Kamera änderte sich von {before} auf {now}, während Ansichten aufgenommen "
             "wurden",
@@ -592,6 +598,50 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the rehearsal's {key} is {value}, allowed is {allowed_values}",
             "de": "{key} des Probebetriebs ist {value}, erlaubt ist {allowed_values}",
+        },
+    ),
+    "SOURCE_STALLED": (
+        {
+            "en": "the source {source} is open, but sent no image for {limit_s:g} s",
+            "de": "{source} ist geöffnet, sendete aber {limit_s:g} s lang kein Bild",
+        },
+    ),
+    "CAMERA_NOT_TRIGGERED": (
+        {
+            "en": "{source} waits for a pulse on {trigger}, but received none for {limit_s:g} s",
+            "de": "{source} wartet auf einen Impuls an {trigger}, erhielt aber {limit_s:g} s lang keinen",
+        },
+    ),
+    "PHONE_IMAGE_BROKEN": (
+        {
+            "en": "an image of the phone is not a complete JPEG",
+            "de": "ein Bild des Telefons ist kein vollständiges JPEG",
+        },
+    ),
+    "PHONE_IMAGE_OLD": (
+        {
+            "en": "images of the phone arrive {age_s:.1f} s after their capture, limit {limit_s:g} s",
+            "de": "Bilder des Telefons kommen {age_s:.1f} s nach ihrer Aufnahme an, Grenze {limit_s:g} s",
+        },
+    ),
+    "PHONE_IMAGE_REPEATED": (
+        {
+            "en": "an image of the phone was captured no later than the one before it",
+            "de": "ein Bild des Telefons wurde nicht später aufgenommen als das vorige",
+        },
+    ),
+    "PHONE_IMAGE_SIZE": (
+        {
+            "en": "an image of the phone has {width_px}x{height_px} px, allowed are {min_side_px} to "
+            "{max_width_px}x{max_height_px}",
+            "de": "ein Bild des Telefons hat {width_px}x{height_px} px, erlaubt sind {min_side_px} bis "
+            "{max_width_px}x{max_height_px}",
+        },
+    ),
+    "PHONE_NOT_SELECTED": (
+        {
+            "en": "the image source of this server is {source}, not a phone",
+            "de": "die Bildquelle dieses Servers ist {source}, kein Telefon",
         },
     ),
 }

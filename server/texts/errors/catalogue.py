@@ -7,6 +7,7 @@ from server.texts.errors.camera import CAMERA
 from server.texts.errors.cases import CASES
 from server.texts.errors.certificate import CERTIFICATE
 from server.texts.errors.procedure import PROCEDURE
+from server.texts.errors.process import PROCESS
 from server.texts.errors.recordings import RECORDINGS
 from server.texts.errors.registration import REGISTRATION
 from server.texts.errors.remedies import REMEDIES as OF_ERRORS
@@ -31,6 +32,7 @@ _PARTS = (
     REGISTRATION,
     TOOL,
     CAMERA,
+    PROCESS,
     RECORDINGS,
     CASES,
     ACCESS,

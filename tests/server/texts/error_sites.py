@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+# Fields of `Problem`, which are given by name.
+PROBLEM = ("code", "message", "remedy")
 # Only a terminal shows their errors, which are in English.
 ENGLISH = ("server/cli/", "server/config_file.py", "server/pose_file/", "server/security/tls/selection.py")
 ROOT = Path(__file__).resolve().parents[3]
@@ -31,7 +33,7 @@ class ErrorSite:
 
 @cache
 def error_sites() -> tuple[ErrorSite, ...]:
-    """Return all places in tracker and server at which an error with a literal code is made.
+    """Return all places in tracker and server at which an error or problem with a literal code is made.
 
     Errors of the command line and of a start that fails are left out, and warnings of a calibration's report.
     """
@@ -50,9 +52,15 @@ def _sites_in(path: Path) -> Iterator[ErrorSite]:
         if isinstance(target, ast.Name)
     }
     for node in ast.walk(tree):
-        if not isinstance(node, ast.Call) or len(node.args) < 3 or ast.unparse(node.func) == "warn":
+        if not isinstance(node, ast.Call) or ast.unparse(node.func) == "warn":
             continue
-        given, message, remedy = node.args[:3]
+        if len(node.args) >= 3:
+            given, message, remedy = node.args[:3]
+        elif ast.unparse(node.func) == "Problem":
+            named = {one.arg: one.value for one in node.keywords}
+            given, message, remedy = (named.get(part) for part in PROBLEM)
+        else:
+            continue
         for code in [given.body, given.orelse] if isinstance(given, ast.IfExp) else [given]:
             if isinstance(code, ast.Constant) and isinstance(code.value, str) and CODE.fullmatch(code.value):
                 where = f"{path.relative_to(ROOT)}:{node.lineno}"
@@ -76,7 +84,7 @@ def shape_of(template: str) -> str:
     return FIELD.sub(r"{\1}", template)
 
 
-def _shape(node: ast.expr, constants: dict[str, ast.expr]) -> str | None:
+def _shape(node: ast.expr | None, constants: dict[str, ast.expr]) -> str | None:
     if isinstance(node, ast.Name):
         node = constants.get(node.id, node)
     if isinstance(node, ast.Constant):

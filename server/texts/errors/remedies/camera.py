@@ -432,4 +432,41 @@ CAMERA: tuple[Text, ...] = (
         "en": "Set {key} to {allowed_values}.",
         "de": "{key} neu setzen: {allowed_values}.",
     },
+    {
+        "en": "Check the camera, its power and its cable; it is retried automatically.",
+        "de": "Kamera, Strom und Kabel prüfen; es wird automatisch neu versucht.",
+    },
+    {
+        "en": "Start the trigger source, and check its cable; or set camera.trigger to null.",
+        "de": "Die Triggerquelle starten und ihr Kabel prüfen; oder camera.trigger auf null setzen.",
+    },
+    {
+        "en": "Reload the page on the phone; if the error persists, use another browser.",
+        "de": "Die Seite auf dem Telefon neu laden; bleibt der Fehler, einen anderen Browser verwenden.",
+    },
+    {
+        "en": "Move the phone closer to its access point, or set smaller images with camera.width and "
+        "camera.height.",
+        "de": "Das Telefon näher an seinen Zugangspunkt bringen, oder mit camera.width und camera.height "
+        "kleinere Bilder einstellen.",
+    },
+    {
+        "en": "Touch STOP and START on the phone.",
+        "de": "Auf dem Telefon STOP und START berühren.",
+    },
+    {
+        "en": "Set camera.width and camera.height to a size of the phone's camera.",
+        "de": "camera.width und camera.height auf eine Größe der Kamera des Telefons setzen.",
+    },
+    {
+        "en": "Start it with coaxial run --source phone, or set camera.source to phone in its settings.",
+        "de": "Den Server mit coaxial run --source phone starten, oder in seinen Einstellungen "
+        "camera.source auf phone setzen.",
+    },
+    {
+        "en": "Set {control} back to {calibrated} (a restart does this, unless camera.lock_controls is "
+        "false), or calibrate the camera again.",
+        "de": "{control} auf {calibrated} zurückstellen (ein Neustart tut das, außer wenn "
+        "camera.lock_controls false ist), oder die Kamera neu kalibrieren.",
+    },
 )
