@@ -60,6 +60,11 @@ class CollectionStatus:
     points_px: Array
     problem: Problem | None
 
+    @property
+    def is_taken(self) -> bool:
+        """Return whether the newest image gave a view."""
+        return self.message == MESSAGES[ViewVerdict.TAKEN]
+
 
 MESSAGES = {
     ViewVerdict.TAKEN: "taken",

@@ -124,6 +124,11 @@ def error_reason(code: str, message: str, remedy: str, context: Mapping[str, obj
     return Reason(code=code, message=translated_message, remedy=translated_remedy)
 
 
+def phrase_text(name: str, english: str) -> Text:
+    """Return a phrase in all languages, in English where it has no translation."""
+    return _read_phrase(english, PHRASES[name]) or as_is(english)
+
+
 def _values(context: Mapping[str, object]) -> Mapping[str, object]:
     """Return the values of an error with those that are phrases in all languages."""
     values = {name: _word(name, value) for name, value in context.items()}

@@ -5,6 +5,82 @@ from collections.abc import Mapping
 from server.texts.errors.phrases.system import SYSTEM_ERRORS
 from server.texts.language import NO_TEXT, Text
 
+_BOARD_PROBLEMS: tuple[Text, ...] = (
+    {
+        "en": "no dots that stand in a grid",
+        "de": "keine Punkte, die ein Raster bilden",
+    },
+    {
+        "en": "{dots} dots stand in a grid, at least {needed} are needed",
+        "de": "{dots} Punkte bilden ein Raster, nötig mindestens {needed}",
+    },
+    {
+        "en": "{spots} spots stand in a grid, and they are square and not round",
+        "de": "{spots} Flecken bilden ein Raster, sie sind aber eckig und nicht rund",
+    },
+    {
+        "en": "a grid of {wide} x {high} steps, and the board has {columns} x {rows}",
+        "de": "ein Raster von {wide} x {high} Schritten, die Tafel hat {columns} x {rows}",
+    },
+    {
+        "en": "{larger} larger dots are seen, and {misfits} dots differ in size from the board with "
+        "larger dots {fiducials}",
+        "de": "{larger} größere Punkte sind zu sehen, und {misfits} Punkte haben eine andere Größe als "
+        "auf der Tafel mit den größeren Punkten {fiducials}",
+    },
+    {
+        "en": "{tags} tags of {dictionary} are read, and {complete} have all of their corners between "
+        "squares, at least {needed} are needed",
+        "de": "{tags} Tags aus {dictionary} sind lesbar, bei {complete} liegen alle Ecken zwischen "
+        "Quadraten, nötig mindestens {needed}",
+    },
+    {
+        "en": "{codes} markers of {dictionary} and {corners} corners between them are seen, at least "
+        "{needed} corners are needed",
+        "de": "{codes} Marker aus {dictionary} und {corners} Ecken dazwischen sind zu sehen, nötig "
+        "mindestens {needed} Ecken",
+    },
+    {
+        "en": "{corners} corners of squares stand in a grid, at least {needed} are needed",
+        "de": "{corners} Ecken von Quadraten bilden ein Raster, nötig mindestens {needed}",
+    },
+    {
+        "en": "{corners} corners where dark and light take turns, at least {needed} are needed",
+        "de": "{corners} Ecken, an denen dunkel und hell abwechseln, nötig mindestens {needed}",
+    },
+    {
+        "en": "dark and light take turns at {percent} % of {corners} corners in a grid, needed {needed} %",
+        "de": "dunkel und hell wechseln an {percent} % von {corners} Ecken eines Rasters ab, nötig "
+        "{needed} %",
+    },
+    {
+        "en": "a grid of {wide} x {high} corners, and the board has {columns} x {rows}",
+        "de": "ein Raster von {wide} x {high} Ecken, die Tafel hat {columns} x {rows}",
+    },
+    {
+        "en": "{corners} corners stand in a grid, and dark and light do not take turns at {misfits} of them",
+        "de": "{corners} Ecken bilden ein Raster, aber an {misfits} davon wechseln dunkel und hell nicht ab",
+    },
+)
+_CORNERS: tuple[Text, ...] = (
+    {
+        "en": "top left",
+        "de": "oben links",
+    },
+    {
+        "en": "top right",
+        "de": "oben rechts",
+    },
+    {
+        "en": "bottom left",
+        "de": "unten links",
+    },
+    {
+        "en": "bottom right",
+        "de": "unten rechts",
+    },
+)
+
 CAMERA: Mapping[str, tuple[Text, ...]] = {
     "focus_phrase": (
         {
@@ -27,66 +103,7 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "gesucht",
         },
     ),
-    "board_problem": (
-        {
-            "en": "no dots that stand in a grid",
-            "de": "keine Punkte, die ein Raster bilden",
-        },
-        {
-            "en": "{dots} dots stand in a grid, at least {needed} are needed",
-            "de": "{dots} Punkte bilden ein Raster, nötig mindestens {needed}",
-        },
-        {
-            "en": "{spots} spots stand in a grid, and they are square and not round",
-            "de": "{spots} Flecken bilden ein Raster, sie sind aber eckig und nicht rund",
-        },
-        {
-            "en": "a grid of {wide} x {high} steps, and the board has {columns} x {rows}",
-            "de": "ein Raster von {wide} x {high} Schritten, die Tafel hat {columns} x {rows}",
-        },
-        {
-            "en": "{larger} larger dots are seen, and {misfits} dots differ in size from the board with "
-            "larger dots {fiducials}",
-            "de": "{larger} größere Punkte sind zu sehen, und {misfits} Punkte haben eine andere Größe als "
-            "auf der Tafel mit den größeren Punkten {fiducials}",
-        },
-        {
-            "en": "{tags} tags of {dictionary} are read, and {complete} have all of their corners between "
-            "squares, at least {needed} are needed",
-            "de": "{tags} Tags aus {dictionary} sind lesbar, bei {complete} liegen alle Ecken zwischen "
-            "Quadraten, nötig mindestens {needed}",
-        },
-        {
-            "en": "{codes} markers of {dictionary} and {corners} corners between them are seen, at least "
-            "{needed} corners are needed",
-            "de": "{codes} Marker aus {dictionary} und {corners} Ecken dazwischen sind zu sehen, nötig "
-            "mindestens {needed} Ecken",
-        },
-        {
-            "en": "{corners} corners of squares stand in a grid, at least {needed} are needed",
-            "de": "{corners} Ecken von Quadraten bilden ein Raster, nötig mindestens {needed}",
-        },
-        {
-            "en": "{corners} corners where dark and light take turns, at least {needed} are needed",
-            "de": "{corners} Ecken, an denen dunkel und hell abwechseln, nötig mindestens {needed}",
-        },
-        {
-            "en": "dark and light take turns at {percent} % of {corners} corners in a grid, needed "
-            "{needed} %",
-            "de": "dunkel und hell wechseln an {percent} % von {corners} Ecken eines Rasters ab, nötig "
-            "{needed} %",
-        },
-        {
-            "en": "a grid of {wide} x {high} corners, and the board has {columns} x {rows}",
-            "de": "ein Raster von {wide} x {high} Ecken, die Tafel hat {columns} x {rows}",
-        },
-        {
-            "en": "{corners} corners stand in a grid, and dark and light do not take turns at {misfits} of "
-            "them",
-            "de": "{corners} Ecken bilden ein Raster, aber an {misfits} davon wechseln dunkel und hell "
-            "nicht ab",
-        },
-    ),
+    "board_problem": _BOARD_PROBLEMS,
     "fault_hint": (
         NO_TEXT,
         {
@@ -483,6 +500,86 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "seconds from {low} to {high}",
             "de": "Sekunden von {low} bis {high}",
+        },
+    ),
+    "collection_message": (
+        {
+            "en": "taken",
+            "de": "aufgenommen",
+        },
+        {
+            "en": "too small a part of the board is visible",
+            "de": "ein zu kleiner Teil der Tafel ist sichtbar",
+        },
+        {
+            "en": "board found: hold it still",
+            "de": "Tafel gefunden: ruhig halten",
+        },
+        {
+            "en": "the board is moving: hold it still",
+            "de": "die Tafel bewegt sich: ruhig halten",
+        },
+        {
+            "en": "a similar view has already been taken: move or tilt the board",
+            "de": "eine ähnliche Ansicht ist schon aufgenommen: die Tafel bewegen oder neigen",
+        },
+        {
+            "en": "there is no image",
+            "de": "es gibt kein Bild",
+        },
+        {
+            "en": "there is no image: the source has ended",
+            "de": "es gibt kein Bild: die Quelle ist zu Ende",
+        },
+        *_BOARD_PROBLEMS,
+    ),
+    "view_advice": (
+        {
+            "en": "Show the board to the camera.",
+            "de": "Die Tafel der Kamera zeigen.",
+        },
+        {
+            "en": "Hold the board into the {image_corners} of the image.",
+            "de": "Die Tafel in diese Ecken des Bildes halten: {image_corners}.",
+        },
+        {
+            "en": "The board was in {covered} of the image, needed {needed}: move it along the rim.",
+            "de": "Die Tafel war in {covered} des Bildes, nötig {needed}: sie am Rand entlang bewegen.",
+        },
+        {
+            "en": "Tilt the board by {tilt_deg} degrees or more, {tilt_way} ({reached_deg} so far).",
+            "de": "Die Tafel um {tilt_deg}° oder mehr neigen, {tilt_way} (bisher {reached_deg}°).",
+        },
+        {
+            "en": "{views} of {needed} views: hold it still in more places and tilts.",
+            "de": "{views} von {needed} Ansichten: sie an weiteren Orten und mit weiteren Neigungen ruhig "
+            "halten.",
+        },
+    ),
+    "image_corners": (
+        {
+            "en": "{image_corner}, {image_corners}",
+            "de": "{image_corner}, {image_corners}",
+        },
+        *_CORNERS,
+    ),
+    "image_corner": (*_CORNERS,),
+    "tilt_way": (
+        {
+            "en": "its upper edge away from you",
+            "de": "die Oberkante von der Person weg",
+        },
+        {
+            "en": "its upper edge towards you",
+            "de": "die Oberkante zur Person hin",
+        },
+        {
+            "en": "its left edge away from you",
+            "de": "die linke Kante von der Person weg",
+        },
+        {
+            "en": "its right edge away from you",
+            "de": "die rechte Kante von der Person weg",
         },
     ),
 }
