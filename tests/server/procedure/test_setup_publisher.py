@@ -15,7 +15,7 @@ from server.procedure.camera import MAIN_CAMERA
 from server.procedure.drill_reference import DrillReferenceBuilder
 from server.procedure.markers import MarkerStep
 from server.procedure.plan import ACTIVE_CHANNEL
-from server.procedure.registration_record import RegistrationRecord
+from server.procedure.registration_record import RegistrationEvidence, RegistrationRecord
 from server.procedure.setup_publisher import SetupPublisher
 from server.procedure.state import Procedure, SetupDefaults
 from server.setup import CaseSetup
@@ -143,7 +143,7 @@ def test_a_channel_is_published_with_its_ct_until_the_ct_is_replaced(published: 
 def test_a_registration_is_published_without_numbers_until_it_is_checked(published: Published) -> None:
     published.put_plan()
     record = RegistrationRecord.of(
-        REGISTRATION, vertebra="L3", reference="", run=RUN, numbers={}, made_from={}, from_s=12.5
+        REGISTRATION, RegistrationEvidence(from_s=12.5), vertebra="L3", reference="", run=RUN
     )
     document = published.put(DocumentKind.REGISTRATION, "L3", record.model_dump(mode="json"))
     assert published.newest.registration is not None
