@@ -106,6 +106,8 @@ WORDS: Mapping[str, Mapping[str, Text]] = {
     },
     "waits_for": STEPS,
 }
+# A file may state any name in a phrase, and the time of a comparison grows faster than the length.
+MAX_PHRASE_LENGTH = 1000
 _NO_TEXT = re.compile(r"(?!)")
 
 
@@ -156,6 +158,8 @@ def _translation(english: str, templates: tuple[Text, ...], values: Mapping[str,
 
 def _read_phrase(english: str, templates: tuple[Text, ...]) -> Text | None:
     """Return the first template that this English phrase has the form of, with the values that are in it."""
+    if len(english) > MAX_PHRASE_LENGTH:
+        return None
     for template in templates:
         found = _pattern(template["en"]).fullmatch(english)
         if found is not None:

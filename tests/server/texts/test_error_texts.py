@@ -139,7 +139,12 @@ def test_values_of_a_phrase_are_read_from_its_text() -> None:
 
 
 @pytest.mark.parametrize(
-    "fault", ["its distortion is odd, at 4 deg from its axis", "{camera_problem}", "{value}"]
+    "fault",
+    [
+        pytest.param("its distortion is odd, at 4 deg from its axis", id="of another form"),
+        pytest.param("{camera_problem}", id="that is a template"),
+        pytest.param(f"its sensor tilts by {'9' * 1000} deg, allowed 45 deg", id="that is very long"),
+    ],
 )
 def test_an_error_with_an_unknown_phrase_stays_english(fault: str) -> None:
     remedy = "Calibrate the camera again, or give OpenCV's K (3x3), distortion and image size."
