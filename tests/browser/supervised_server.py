@@ -21,7 +21,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.logs import LogSettings
-from server.procedure import Steps
+from server.procedure import Steps, TrackingLink
 from server.procedure.plan import ACTIVE_CHANNEL, ActiveChannel
 from server.procedure.registration_record import (
     CheckRecord,
@@ -140,7 +140,7 @@ def main() -> None:
             jobs=jobs,
             config=CONFIG,
             markers=(),
-            publish_setup=lambda _: None,
+            tracking=TrackingLink(publish_setup=lambda _: None),
         )
         fill(store, steps.procedure.run)
         put_recordings(store)
