@@ -56,8 +56,13 @@ def read_camera_file(path: Path) -> CameraFile:
     context: dict[str, object] = {"file": str(path)}
     values = yaml_in(path, what="camera file", code="CAMERA_FILE_UNREADABLE", remedy=REMEDY)
     if not isinstance(values, dict):
-        message = f"the camera file {path} is a {type(values).__name__}, expected keys with values"
-        raise InvalidInput("CAMERA_FILE_INVALID", message, REMEDY, context)
+        given = type(values).__name__
+        raise InvalidInput(
+            "CAMERA_FILE_INVALID",
+            f"the camera file {path} is a {given}, expected keys with values",
+            REMEDY,
+            {"file": str(path), "given": given},
+        )
     camera = values.get("camera")
     whose = camera if isinstance(camera, dict) else {}
     try:
@@ -91,11 +96,12 @@ def controls_in(camera: Mapping[str, object]) -> Mapping[CameraControl, int]:
         for key, value in values.items()
     ):
         return {CameraControl(key): value for key, value in values.items()}
+    stated, names = str(values), ", ".join(known)
     raise InvalidInput(
         "CAMERA_FILE_INVALID",
-        f"the controls of a camera are {values!r}, expected integers by name",
-        f"Omit controls, or give values for some of: {', '.join(known)}.",
-        {"controls": str(values)},
+        f"the controls of a camera are {stated}, expected integers by name",
+        f"Omit controls, or give values for some of: {names}.",
+        {"controls": stated, "names": names},
     )
 
 
@@ -113,9 +119,9 @@ def readout_in(camera: Mapping[str, object]) -> float | None:
         return float(str(value))
     raise InvalidInput(
         "CAMERA_FILE_INVALID",
-        f"the readout of a camera is {value!r}, expected a number of ms from 0 to {MAX_READOUT_MS:g}",
+        f"the readout of a camera is {value}, expected a number of ms from 0 to {MAX_READOUT_MS:g}",
         "Omit readout_ms if it is unknown; 0 is a global shutter.",
-        {"readout_ms": str(value)},
+        {"readout_ms": str(value), "max_readout_ms": MAX_READOUT_MS},
     )
 
 

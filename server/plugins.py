@@ -32,7 +32,7 @@ def load_plugin(group: str, name: str) -> Any:  # noqa: ANN401  whatever the ent
             "PLUGIN_NOT_INSTALLED",
             f"there is no plug-in {name} in {group}; installed: {names}",
             "Install its package into the environment of Coaxial, or correct its name in the settings.",
-            {"plugin": name},
+            {"plugin": name, "group": group, "installed": names},
         )
     if len(found) > 1:
         packages = ", ".join(sorted(map(_package, found)))
@@ -40,16 +40,17 @@ def load_plugin(group: str, name: str) -> Any:  # noqa: ANN401  whatever the ent
             "PLUGIN_AMBIGUOUS",
             f"{len(found)} packages have a plug-in {name} in {group}: {packages}",
             "Uninstall all of them but one.",
-            {"plugin": name},
+            {"plugin": name, "group": group, "count": len(found), "packages": packages},
         )
     try:
         return found[0].load()
     except Exception as error:
+        reason = f"{type(error).__name__}: {error}"
         raise PluginError(
             "PLUGIN_NOT_LOADED",
-            f"the plug-in {name} cannot be imported: {type(error).__name__}: {error}",
+            f"the plug-in {name} cannot be imported: {reason}",
             "Correct or update its package, then start again.",
-            {"plugin": name},
+            {"plugin": name, "library_error": reason},
         ) from error
 
 

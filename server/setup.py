@@ -375,19 +375,26 @@ def camera_for_size(
     if same_sensor_area and has_aspect:
         return camera.scaled_to(size_wh_px)
     (width, height), (width_file, height_file) = size_wh_px, camera.size_wh_px
+    subject = "images are" if image is None else f"{image} is"
+    omit = "" if image is None else "Omit the image if it is from another camera. "
+    scaling = (
+        "If both sizes show the same field of view, set camera.same_sensor_area, and the calibration is "
+        "scaled."
+        if has_aspect
+        else "It is never scaled to another aspect ratio, because the field of view differs."
+    )
     raise CalibrationError(
         "CAMERA_SIZE_MISMATCH",
-        f"{'images are' if image is None else f'{image} is'} {width}x{height} px, but the camera was "
-        f"calibrated at {width_file}x{height_file} px",
-        ("" if image is None else "Omit the image if it is from another camera. ")
-        + f"Set the camera to {width_file}x{height_file} px, or calibrate it at {width}x{height} px. "
-        + (
-            "If both sizes show the same field of view, set camera.same_sensor_area, and the calibration is "
-            "scaled."
-            if has_aspect
-            else "It is never scaled to another aspect ratio, because the field of view differs."
-        ),
-        {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_file, height_file]},
+        f"{subject} {width}x{height} px, but the camera was calibrated at {width_file}x{height_file} px",
+        f"{omit}Set the camera to {width_file}x{height_file} px, or calibrate it at {width}x{height} px. "
+        f"{scaling}",
+        {
+            "image_size_wh_px": [width, height],
+            "calibrated_size_wh_px": [width_file, height_file],
+            "image_subject": subject,
+            "omit_hint": omit,
+            "scaling_hint": scaling,
+        },
     )
 
 

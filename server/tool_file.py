@@ -70,15 +70,19 @@ def load_tool_file(path: Path) -> ToolFile:
     Raises:
         InvalidInput: TOOL_FILE_UNREADABLE or TOOL_FILE_INVALID; the message names the file.
     """
-    context: dict[str, object] = {"file": str(path)}
     values = yaml_in(path, what="tool file", code="TOOL_FILE_UNREADABLE", remedy=REMEDY)
     try:
         return ToolFile.model_validate(values)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         key = ".".join(str(part) for part in first["loc"]) or "it"
-        message = f"the tool file {path} cannot be used: {key}: {first['msg'].lower()}"
-        raise InvalidInput("TOOL_FILE_INVALID", message, REMEDY, context) from None
+        reason = f"{key}: {first['msg'].lower()}"
+        raise InvalidInput(
+            "TOOL_FILE_INVALID",
+            f"the tool file {path} cannot be used: {reason}",
+            REMEDY,
+            {"file": str(path), "library_error": reason},
+        ) from None
 
 
 def text_of_tool_file(tool: ToolFile) -> str:
@@ -167,13 +171,12 @@ def _one_axis(name: str, tool: ToolConfig, file: ToolFile) -> list[float]:
     known = [axis for axis in axes if axis is not None]
     if len(known) == 1:
         return known[0]
+    place = f"defined in the settings and in {tool.calibration}" if known else "not defined"
     raise CalibrationError(
         "TOOL_AXIS_UNKNOWN",
-        f"the axis of '{name}' is "
-        + (f"defined in the settings and in {tool.calibration}" if known else "not defined")
-        + ", expected in one place",
+        f"the axis of '{name}' is {place}, expected in one place",
         f"Add the axis with 'coaxial spin', or set tools.{name}.axis_in_marker.",
-        {"tool": name},
+        {"tool": name, "axis_place": place},
     )
 
 

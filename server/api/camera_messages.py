@@ -8,6 +8,7 @@ from server.api.case_messages import DocumentMessage
 from server.api.requester import MadeBy
 from server.procedure.board_collection import BoardCollection, CollectionStatus
 from server.stream.messages import Message, ProblemMessage, problem_message
+from server.texts import phrase_text, requested_language
 from tracker.camera import (
     AprilGridBoard,
     Board,
@@ -106,11 +107,13 @@ class CollectionMessage(Message):
     tilt_deg: list[float]
     """Minimum and maximum pitch (> 0: upper edge away), minimum and maximum yaw (> 0: left edge away)."""
     missing: list[str]
-    """Instructions for further views; empty if the views suffice."""
+    """Instructions for further views, in the language of the request; empty if the views suffice."""
     image_number: int
     """Number of the newest processed image; -1 if there is none."""
+    is_taken: bool
+    """Whether this image gave a view."""
     message: str
-    """Result for this image."""
+    """Result for this image, in the language of the request."""
     points_px: list[list[float]]
     """Detected board points in this image."""
     problem: ProblemMessage | None
@@ -220,6 +223,8 @@ def collection_message(collection: BoardCollection) -> CollectionMessage:
     """Return the message of a collection."""
     status: CollectionStatus = collection.status
     progress = status.progress
+    missing = (SHOW_IT,) if progress is None else progress.missing
+    language = requested_language()
     return CollectionMessage(
         board=board_message(status.board),
         running=status.running,
@@ -229,9 +234,10 @@ def collection_message(collection: BoardCollection) -> CollectionMessage:
         coverage_ratio=0.0 if progress is None else progress.coverage_ratio,
         covered=[] if progress is None else progress.covered.tolist(),
         tilt_deg=[0.0] * 4 if progress is None else list(progress.tilt_deg),
-        missing=[SHOW_IT] if progress is None else list(progress.missing),
+        missing=[phrase_text("view_advice", one)[language] for one in missing],
         image_number=status.image_number,
-        message=status.message,
+        is_taken=status.is_taken,
+        message=phrase_text("collection_message", status.message)[language],
         points_px=status.points_px.round(2).tolist(),
         problem=problem_message(status.problem),
     )

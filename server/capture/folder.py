@@ -109,11 +109,12 @@ class FolderSource:
                 if path.suffix.lower() in IMAGE_SUFFIXES and not path.name.startswith(".")
             ]
         except OSError as error:
+            reason = (error.strerror or str(error)).lower()
             raise CaptureError(
                 "SOURCE_NOT_FOUND",
-                f"the folder {self.name} cannot be listed: {(error.strerror or '').lower()}",
+                f"the folder {self.name} cannot be listed: {reason}",
                 "Check the path in camera.source or --source; it is retried automatically.",
-                {"folder": self.name},
+                {"folder": self.name, "system_error": reason},
             ) from error
         if not files:
             raise self._empty()
@@ -141,11 +142,12 @@ class FolderSource:
         return image, content if content.startswith(JPEG_START) else b""
 
     def _empty(self) -> CaptureError:
+        suffixes = ", ".join(IMAGE_SUFFIXES)
         return CaptureError(
             "FOLDER_WITHOUT_IMAGES",
-            f"the folder {self.name} has 0 images ({', '.join(IMAGE_SUFFIXES)})",
+            f"the folder {self.name} has 0 images ({suffixes})",
             "Put images into the folder, or give another folder; it is retried automatically.",
-            {"folder": self.name, "images": 0},
+            {"folder": self.name, "images": 0, "suffixes": suffixes},
         )
 
 
@@ -159,14 +161,15 @@ def _unreadable(reason_from_file: Mapping[Path, str]) -> CaptureError:
             "FOLDER_IMAGE_UNREADABLE",
             f"the image {first[0][0]} cannot be used: {first[0][1]}",
             "Replace it or remove it from the folder; it is skipped until then.",
-            {**context, "images": count},
+            {**context, "images": count, "image_problem": first[0][1]},
         )
     rest = f" and {count - MAX_NAMED} more" if count > MAX_NAMED else ""
+    named = ", ".join(f"{file} ({reason})" for file, reason in first)
     return CaptureError(
         "FOLDER_IMAGE_UNREADABLE",
-        f"{count} images cannot be used: {', '.join(f'{file} ({reason})' for file, reason in first)}{rest}",
+        f"{count} images cannot be used: {named}{rest}",
         "Replace them or remove them from the folder; they are skipped until then.",
-        {**context, "images": count},
+        {**context, "images": count, "unusable_images": named, "more_images": rest},
     )
 
 

@@ -95,11 +95,12 @@ class PluginSource:
         return float(captured_at_s)
 
     def _failed(self, what: str, error: Exception) -> CaptureError:
+        reason = f"{type(error).__name__}: {error}"
         return CaptureError(
             "PLUGIN_SOURCE_FAILED",
-            f"the plug-in {self._plugin} {what}: {type(error).__name__}: {error}",
+            f"the plug-in {self._plugin} {what}: {reason}",
             "Check the camera of the plug-in and its address in camera.source; it is retried automatically.",
-            {"plugin": self._plugin},
+            {"plugin": self._plugin, "plugin_problem": what, "library_error": reason},
         )
 
     def _invalid(self, code: str, what: str) -> CaptureError:

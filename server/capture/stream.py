@@ -257,5 +257,5 @@ class StreamSource:
                 "STREAM_UNREACHABLE",
                 f"the stream {self.name} cannot be reached at {parts.hostname}:{port}: {reason}",
                 "Check address, cable and power of the camera; it is retried automatically.",
-                {"stream": self.name, "host": parts.hostname, "port": port},
+                {"stream": self.name, "host": parts.hostname, "port": port, "stream_problem": reason},
             ) from error

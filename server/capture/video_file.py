@@ -138,7 +138,7 @@ class VideoFileSource:
             "VIDEO_FILE_UNREADABLE",
             f"{self.name} ({size} bytes) is not a usable video file: {reason}",
             "Give a complete video file (MP4, MOV, AVI or MKV); copy or export a truncated file again.",
-            {"file": self.name, "bytes": size},
+            {"file": self.name, "bytes": size, "video_problem": reason},
         )
 
 
@@ -162,5 +162,5 @@ def _check_readable(path: Path) -> None:
             "SOURCE_NOT_FOUND" if "exist" in reason else "VIDEO_FILE_UNREADABLE",
             f"the source {path} cannot be opened: {reason}",
             "Check the path in camera.source or --source; it is retried automatically.",
-            {"file": str(path)},
+            {"file": str(path), "source_problem": reason},
         )

@@ -80,7 +80,7 @@ def _serve(
         from server.alarms import AlarmService, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app, picture_problem_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
-        from server.procedure import Steps  # noqa: PLC0415
+        from server.procedure import Steps, TrackingLink  # noqa: PLC0415
         from server.recording.service import RecordingService  # noqa: PLC0415
         from server.sinks import Sinks  # noqa: PLC0415
 
@@ -96,9 +96,11 @@ def _serve(
             config=config,
             markers=preparation.models,
             tools=preparation.tools,
-            publish_setup=_case_callback(tracked, preparation, phone),
-            publish_facts=alarms.set_facts,
-            tracked_from_s=lambda: tracked.tracks_from_s,
+            tracking=TrackingLink(
+                publish_setup=_case_callback(tracked, preparation, phone),
+                publish_facts=alarms.set_facts,
+                tracked_from_s=lambda: tracked.tracks_from_s,
+            ),
         )
         recordings = RecordingService(
             tracked=tracked,

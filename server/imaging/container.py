@@ -67,6 +67,11 @@ class Container:
             ExcludedFiles(count=count, reason=reason) for reason, count in self.reasons.most_common()
         )
 
+    @property
+    def excluded_text(self) -> str:
+        """Excluded files with their reasons, as a part of a message."""
+        return "; ".join(f"{one.count} {one.reason}" for one in self.left_out)
+
 
 @contextmanager
 def open_container(path: Path) -> Iterator[Container]:
@@ -103,15 +108,12 @@ def open_container(path: Path) -> Iterator[Container]:
 
 def _checked(container: Container) -> Container:
     if not container.entries:
-        found = sum(container.reasons.values())
+        only = f", only {container.excluded_text}" if container.reasons else ""
         raise InvalidInput(
             "CT_EMPTY",
-            f"there are no files to read: {found} were found and excluded as "
-            f"{', '.join(container.reasons) or 'none'}"
-            if found
-            else "there are no files to read: 0 were found",
+            f"there are no files to read{only}",
             GIVE,
-            {"files": found},
+            {"files": sum(container.reasons.values()), "excluded_hint": only},
         )
     return container
 

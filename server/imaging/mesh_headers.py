@@ -86,9 +86,10 @@ def _min_bytes(words: list[list[str]], *, binary: bool) -> int:
 
 
 def _unreadable(file_format: str, problem: str) -> InvalidInput:
+    name = file_format.upper()
     return InvalidInput(
         "MESH_UNREADABLE",
-        f"the mesh is not a readable {file_format.upper()} file: {problem}",
+        f"the mesh is not a readable {name} file: {problem}",
         "Export the bone surface again as triangles in STL, OBJ or PLY.",
-        {"format": file_format},
+        {"format": file_format, "format_name": name, "mesh_problem": problem},
     )

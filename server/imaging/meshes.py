@@ -41,8 +41,13 @@ def read_mesh(path: Path, *, unit: str | None = None, space: Space | None = None
         _reject_large(path.stat().st_size)
         content = path.read_bytes()
     except OSError as error:
-        message = f"the mesh cannot be read: {(error.strerror or str(error)).lower()}"
-        raise InvalidInput("MESH_UNREADABLE", message, EXPORT_TRIANGLES) from error
+        reason = (error.strerror or str(error)).lower()
+        raise InvalidInput(
+            "MESH_UNREADABLE",
+            f"the mesh cannot be read: {reason}",
+            EXPORT_TRIANGLES,
+            {"system_error": reason},
+        ) from error
     return mesh_from_bytes(content, file_format=path.suffix[1:], unit=unit, space=space)
 
 
@@ -132,10 +137,11 @@ def _parsed(content: bytes, file_format: str) -> "trimesh.Trimesh":
     except NavigationError:
         raise
     except Exception as error:
+        name, kind = file_format.upper(), type(error).__name__
         raise InvalidInput(
             "MESH_UNREADABLE",
-            f"the mesh is not a readable {file_format.upper()} file: {type(error).__name__}",
+            f"the mesh is not a readable {name} file: {kind}",
             EXPORT_TRIANGLES,
-            {"reason": str(error)[:200]},
+            {"format_name": name, "library_error": kind, "reason": str(error)[:200]},
         ) from error
     return mesh

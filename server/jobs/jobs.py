@@ -260,4 +260,5 @@ def _crashed(how: str) -> Problem:
         code="JOB_ENDED",
         message=f"the process of the job {how}",
         remedy="Start it again. If it is ended by SIGKILL each time, the machine has too little memory.",
+        context={"process_problem": how},
     )

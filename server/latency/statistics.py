@@ -232,7 +232,10 @@ def _count_skipped(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) -
 
 def _code_not_read(what: str, min_timed: int) -> CalibrationError:
     return CalibrationError(
-        "LATENCY_CODE_NOT_READ", f"{what}, the minimum is {min_timed}", AIM, {"min_timed": min_timed}
+        "LATENCY_CODE_NOT_READ",
+        f"{what}, the minimum is {min_timed}",
+        AIM,
+        {"min_timed": min_timed, "code_count": what},
     )
 
 

@@ -191,13 +191,14 @@ class Publisher:
         self._hub.publish(instant)
 
     def _report_failure(self, error: Exception) -> None:
-        message = f"alarms cannot be raised: {type(error).__name__}: {error}"
+        reason = f"{type(error).__name__}: {error}"
         self._problem = Problem(
             code="ALARMS_FAILED",
-            message=message,
+            message=f"alarms cannot be raised: {reason}",
             remedy="Do not navigate. Restart the program; if the error persists, send the server log to the "
             "maintainer.",
+            context={"library_error": reason},
         )
-        if self._logged_failure != message:
-            self._logged_failure = message
+        if self._logged_failure != reason:
+            self._logged_failure = reason
             log.error("alarms cannot be raised", exc_info=error)

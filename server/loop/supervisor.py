@@ -302,7 +302,7 @@ def _problem(what: str, **details: object) -> Problem:
         code="TRACKING_PROCESS_ENDED",
         message=f"the tracking process {what}",
         remedy="It is restarted automatically; if this repeats, check the server log.",
-        context=details,
+        context={"process_problem": what, **details},
     )
 
 
@@ -324,5 +324,5 @@ def _given_up(watchdog: WatchdogSettings, last: Problem) -> Problem:
         f"and ended again; the last time: {last.message}",
         remedy=f"Check the server log for the reason. It is retried within {watchdog.window_s:g} s; "
         "to retry at once, restart the program.",
-        context={"restarts": watchdog.restarts, "window_s": watchdog.window_s},
+        context={"restarts": watchdog.restarts, "window_s": watchdog.window_s, "last_problem": last.message},
     )

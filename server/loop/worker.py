@@ -9,7 +9,6 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from multiprocessing.connection import Connection
 from typing import Generic, TypeAlias, TypeVar
@@ -121,9 +120,25 @@ class LatestValue(Generic[Value]):
         return value
 
 
-LatestCase: TypeAlias = LatestValue[CaseSetup]
-LatestScene: TypeAlias = LatestValue[SceneOrder]
 LatestRequest: TypeAlias = LatestValue[StateRequest]
+
+
+@dataclass(frozen=True, slots=True)
+class ReceivedOrders:
+    """The newest orders of the server, of each kind."""
+
+    cases: LatestValue[CaseSetup] = field(default_factory=LatestValue)
+    scenes: LatestValue[SceneOrder] = field(default_factory=LatestValue)
+    requests: LatestRequest = field(default_factory=LatestValue)
+
+    def put(self, order: CaseSetup | SceneOrder | StateRequest) -> None:
+        """Replace the order of this kind."""
+        if isinstance(order, SceneOrder):
+            self.scenes.put(order)
+        elif isinstance(order, StateRequest):
+            self.requests.put(order)
+        else:
+            self.cases.put(order)
 
 
 class StateSender:
@@ -164,26 +179,16 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
     os.set_blocking(link.notice.fileno(), False)
     cv2.setNumThreads(OPENCV_THREADS)
     stop = threading.Event()
-    newest, scenes, requests = LatestCase(), LatestScene(), LatestRequest()
-    listening = (link.orders, newest, scenes, requests, stop)
+    received = ReceivedOrders()
+    listening = (link.orders, received, stop)
     threading.Thread(target=_listen, args=listening, name="orders", daemon=True).start()
     try:
         preparation = build_setup(_config_of(order))
         source, staging = _staged(order, preparation, stop)
         tracking = Tracking(preparation)
         tracking.adopt(order.case)
-        states = StateSender(link.ring, requests, is_recording=order.is_recording)
-        work(
-            order,
-            link,
-            stop,
-            source,
-            tracking,
-            newest=newest,
-            scenes=scenes,
-            staging=staging,
-            states=states,
-        )
+        states = StateSender(link.ring, received.requests, is_recording=order.is_recording)
+        work(order, link, stop, source, tracking, received=received, staging=staging, states=states)
     except BrokenPipeError:
         # The server has exited.
         os._exit(0)
@@ -236,11 +241,9 @@ def work(
     source: Source,
     tracking: Tracking,
     *,
-    newest: LatestCase,
-    scenes: LatestScene | None = None,
+    received: ReceivedOrders,
     staging: Staging | None = None,
     states: StateSender | None = None,
-    clock: Callable[[], float] = time.monotonic,
 ) -> None:
     """Track the newest image of the source until `stop` is set."""
     # A real camera takes no processor time, so that rendering must not slow tracking.
@@ -256,14 +259,14 @@ def work(
     problem: Problem | None = None
     while not stop.is_set():
         shot = capture.take(HEARTBEAT_S)
-        case = newest.take()
+        case = received.cases.take()
         if case is not None:
             tracking.adopt(case)
             if states is not None:
                 states.note_changed_case()
             if isinstance(source, LocalCameraSource | IndustrialCameraSource):
                 source.adopt(tracking.calibrated_camera)
-        scene = None if scenes is None else scenes.take()
+        scene = received.scenes.take()
         if scene is not None and staging is not None:
             staging.order(scene)
         report = Report(
@@ -282,7 +285,6 @@ def work(
                 skipped_images=report.source.skipped_images,
                 controls=None if camera is None else camera.controls,
                 device=report.source.device,
-                clock=clock,
             )
             problem = tracking.problem
             link.send(replace(report, snapshot=snapshot, problem=problem, tracked_images=tracked + 1), shot)
@@ -295,23 +297,11 @@ def work(
     capture.close(STOP_GRACE_S)
 
 
-def _listen(
-    orders: Connection,
-    newest: LatestCase,
-    scenes: LatestScene,
-    requests: LatestRequest,
-    stop: threading.Event,
-) -> None:
+def _listen(orders: Connection, received: ReceivedOrders, stop: threading.Event) -> None:
     """Pass on the server's messages; end this process when the server closes its end of the pipe."""
     with contextlib.suppress(EOFError, OSError):
         while True:
-            message = orders.recv()
-            if isinstance(message, SceneOrder):
-                scenes.put(message)
-            elif isinstance(message, StateRequest):
-                requests.put(message)
-            else:
-                newest.put(message)
+            received.put(orders.recv())
     stop.set()
     time.sleep(STOP_GRACE_S)
     # Do not wait for a hanging driver or stream.

@@ -70,6 +70,7 @@ def draw_overlay(
             "OVERLAY_SIZE",
             f"the image has {image.shape[1]}x{image.shape[0]} px, but its snapshot is of {width}x{height} px",
             "Draw each snapshot into the image from which it was computed.",
+            {"image_wh_px": [image.shape[1], image.shape[0]], "size_wh_px": [width, height]},
         )
     drawn = np.repeat(image[..., None], 3, axis=2) if image.ndim == 2 else image.copy(order="C")
     # The width limits the scale of a portrait image.
@@ -169,5 +170,6 @@ def encode_jpeg(image: npt.NDArray[np.uint8], quality: int) -> bytes:
             "IMAGE_NOT_ENCODED",
             f"an image of shape {image.shape} cannot be encoded as JPEG",
             "Use images with 1 or 3 channels and at most 65,500 px on a side.",
+            {"shape": str(image.shape)},
         )
     return encoded.tobytes()

@@ -3,13 +3,16 @@
 import numpy as np
 
 from server.jobs import Report
+from server.texts import Text
 from tracker.errors import InvalidInput, PlanError
 from tracker.plan import Volume, measure_pedicle
 from tracker.plan.crop import cropped_around
 from tracker.plan.document import plain
 
+THE_CT: Text = {"en": "the CT", "de": "das CT"}
 
-def load_volume(path: str, lps_from_ijk: object, *, title: str = "the CT") -> Volume:
+
+def load_volume(path: str, lps_from_ijk: object, *, title: Text = THE_CT) -> Volume:
     """Return the memory-mapped voxels with the affine of the document; axes in the patient's order.
 
     Raises:
@@ -20,8 +23,12 @@ def load_volume(path: str, lps_from_ijk: object, *, title: str = "the CT") -> Vo
         affine = np.array(lps_from_ijk, dtype=np.float64)
         return Volume(hu=hu, lps_from_ijk=affine).in_patient_order()
     except (PlanError, OSError, ValueError, TypeError, OverflowError) as error:
+        why = error.message if isinstance(error, PlanError) else f"its file is damaged ({error})"
         raise InvalidInput(
-            "CT_DOCUMENT_INVALID", f"{title} cannot be used: {error}", "Upload the CT again."
+            "CT_DOCUMENT_INVALID",
+            f"{title['en']} cannot be used: {why}",
+            "Upload the CT again.",
+            {"title": title, "document_problem": why},
         ) from error
 
 

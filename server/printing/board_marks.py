@@ -73,7 +73,12 @@ def _dots(board: DotBoard, dot_mm: float | None) -> Iterator[Disc]:
             f"dots of {widest_mm:g} mm at a distance of {nearest_mm:.3g} mm cannot be separated, "
             f"allowed: above 0 to {MAX_DOT_RATIO * nearest_mm:.3g} mm",
             "Give a smaller --dot-mm, or a larger --pitch-mm; larger dots have 1.5 times --dot-mm.",
-            {"dot_mm": dot_mm, "nearest_mm": float(nearest_mm)},
+            {
+                "dot_mm": dot_mm,
+                "widest_mm": widest_mm,
+                "nearest_mm": float(nearest_mm),
+                "max_dot_mm": float(MAX_DOT_RATIO * nearest_mm),
+            },
         )
     for index, (x, y, _) in enumerate(board.object_points_mm.tolist()):
         yield Disc(centre_mm=(x, y), radius_mm=(large_mm if index in board.fiducials else dot_mm) / 2.0)

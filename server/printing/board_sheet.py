@@ -28,11 +28,12 @@ def board_sheet(board: Board, *, paper: str = "A4", dot_mm: float | None = None)
         InvalidInput: PAPER_UNKNOWN, BOARD_TOO_LARGE, BOARD_DOTS_UNPRINTABLE.
     """
     if paper not in PAPER_MM:
+        papers = ", ".join(PAPER_MM)
         raise InvalidInput(
             "PAPER_UNKNOWN",
             f"the paper size '{paper}' is unknown",
-            f"Give --paper with one of {', '.join(PAPER_MM)}.",
-            {"paper": paper, "allowed": list(PAPER_MM)},
+            f"Give --paper with one of {papers}.",
+            {"paper": paper, "allowed": list(PAPER_MM), "papers": papers},
         )
     ink = marks_of_board(board, dot_mm=dot_mm)
     (low_x, low_y), (high_x, high_y) = bounding_box(ink)

@@ -27,7 +27,7 @@ def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
             f"a marker of {side_mm:g} mm cannot be printed on A4 with its white margin, "
             f"allowed: {MIN_SIDE_MM:g} to {MAX_SIDE_MM:g} mm",
             "Give another side with --side-mm.",
-            {"side_mm": side_mm},
+            {"side_mm": side_mm, "min_side_mm": MIN_SIDE_MM, "max_side_mm": MAX_SIDE_MM},
         )
     quiet = QUIET_RATIO * side_mm
     left, top = (A4_MM[0] - side_mm) / 2.0, 95.0

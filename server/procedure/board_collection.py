@@ -60,6 +60,11 @@ class CollectionStatus:
     points_px: Array
     problem: Problem | None
 
+    @property
+    def is_taken(self) -> bool:
+        """Return whether the newest image gave a view."""
+        return self.message == MESSAGES[ViewVerdict.TAKEN]
+
 
 MESSAGES = {
     ViewVerdict.TAKEN: "taken",
@@ -137,7 +142,7 @@ class BoardCollection:
                 "BOARD_NOT_FOUND",
                 f"the board was not found in {name}: {found.sentence}",
                 "Take another image that is sharp and shows the whole board without glare.",
-                {"image": name, "reason": found.reason.value},
+                {"image": name, "reason": found.reason.value, "board_problem": found.sentence},
             )
         with self._lock:
             self._reject_more()

@@ -126,7 +126,7 @@ class CameraStep(CollectingStep[BoardCollection]):
                 "BOARD_NOT_FOUND",
                 f"the board was not found in the image: {seen.sentence}",
                 "Hold the whole board still and in focus, and try again.",
-                {"reason": seen.reason.value},
+                {"reason": seen.reason.value, "board_problem": seen.sentence},
             )
         report = accuracy_of_grid(camera, seen.object_points_mm[:, :2], seen.image_points_px)
         return self._store.put(

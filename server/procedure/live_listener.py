@@ -85,6 +85,7 @@ class LiveListener:
                     code="STEP_FAILED",
                     message=f"{self._thread.name} ended because of an error in the server",
                     remedy="Start it again; if the error persists, send the server log to the maintainer.",
+                    context={"activity": self._thread.name},
                 )
                 return
             took_s = time.monotonic() - began_s

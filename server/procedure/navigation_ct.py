@@ -19,6 +19,7 @@ from server.procedure.open_case import require_open_case
 from server.procedure.plan import active_channel_document, active_channel_from_document, planned_ct_id
 from server.setup import REHEARSAL_CT_ID
 from server.store import CaseStore, Document
+from server.texts import Text, error_reason
 from tracker.geometry import Array
 from tracker.plan import Volume, plan_from_mapping
 from tracker.plan.crop import cropped_around
@@ -26,6 +27,7 @@ from tracker.plan.document.changes import vertebra_named
 
 GZIP_FORMAT = 31  # zlib's window bits for a gzip header and trailer
 FASTEST = 1
+CANCELLED: Text = {"en": "it was cancelled", "de": "es wurde abgebrochen"}
 
 
 @dataclass(frozen=True)
@@ -145,12 +147,17 @@ class NavigationCtProvider:
         if not job.state.is_finished:
             return BeingScanned()
         self._scan_job_id = ""
-        reason = "it was cancelled" if job.problem is None else job.problem.message
+        problem = job.problem
+        reason = (
+            CANCELLED
+            if problem is None
+            else error_reason(problem.code, problem.message, problem.remedy, problem.context).message
+        )
         raise SetupOrderError(
             "SCAN_FAILED",
-            f"the CT of the rehearsal's vertebra could not be simulated: {reason}",
+            f"the CT of the rehearsal's vertebra could not be simulated: {reason['en']}",
             "The next request starts another attempt.",
-            {"job_id": job.id},
+            {"job_id": job.id, "scan_problem": reason},
         )
 
     def _keep_scan(self, scanned: object) -> object:

@@ -1,7 +1,7 @@
 """Records of a registration and of its check on anatomy, as stored in a case."""
 
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Annotated
 
 import numpy as np
@@ -60,6 +60,23 @@ class ExpectedCovariance(Section):
     """Covariance of `anchor_from_vertebra`."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RegistrationEvidence:
+    """What a registration was computed from, and how well it fits.
+
+    Attributes:
+        numbers: results that are compared with the acceptance limits, by name.
+        made_from: the points, needles or sweep.
+        from_s: capture time of its first point, on the image clock of the run; None where no tip was used.
+        with_more_landmarks: covariances that are expected with more landmarks.
+    """
+
+    numbers: Mapping[str, Value] = field(default_factory=dict)
+    made_from: Mapping[str, object] = field(default_factory=dict)
+    from_s: float | None
+    with_more_landmarks: Sequence[ExpectedCovariance] = ()
+
+
 class RegistrationRecord(Section):
     """A registration as stored in a case."""
 
@@ -94,14 +111,11 @@ class RegistrationRecord(Section):
     def of(
         cls,
         registration: Registration,
+        evidence: RegistrationEvidence,
         *,
         vertebra: str,
         reference: str,
         run: str,
-        numbers: dict[str, Value],
-        made_from: dict[str, object],
-        from_s: float | None,
-        with_more_landmarks: Sequence[ExpectedCovariance] = (),
     ) -> "RegistrationRecord":
         """Create the record of a registration."""
         return cls(
@@ -114,11 +128,11 @@ class RegistrationRecord(Section):
             tip_jacobian=registration.tip_jacobian.tolist(),
             tool=registration.tool,
             tracking_covariance_mm2=registration.tracking_covariance_mm2.tolist(),
-            with_more_landmarks=list(with_more_landmarks),
+            with_more_landmarks=list(evidence.with_more_landmarks),
             run=run,
-            numbers=numbers,
-            made_from=made_from,
-            from_s=from_s,
+            numbers=dict(evidence.numbers),
+            made_from=dict(evidence.made_from),
+            from_s=evidence.from_s,
         )
 
     @property
@@ -199,7 +213,7 @@ def registration_from_document(document: Document, *, reference: str) -> Registr
             "REGISTRATION_DOCUMENT_INVALID",
             f"{document.title} cannot be read: {why}",
             "Register again.",
-            {"document_id": document.id},
+            {"document_id": document.id, "title": document.title_text, "document_problem": why},
         ) from None
     record = _as_imported(record, document)
     if record.anchored_to is AnchoredTo.REFERENCE and record.reference != reference:

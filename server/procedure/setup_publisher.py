@@ -5,10 +5,11 @@ restarted tracking process. A registration that was made for one camera, marker 
 another.
 """
 
+import math
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import structlog
 
@@ -43,6 +44,21 @@ from tracker.registration import AnchoredTo
 log = structlog.get_logger(__name__)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrackingLink:
+    """Connection of the procedure to tracking and alarms.
+
+    Attributes:
+        publish_setup: sends the setup of the open case to the tracking process.
+        publish_facts: sends the facts of the procedure to the alarms.
+        tracked_from_s: returns the start of the current tracking process, on the image clock.
+    """
+
+    publish_setup: Callable[[CaseSetup], None]
+    publish_facts: Callable[[ProcedureFacts], None] = lambda _: None
+    tracked_from_s: Callable[[], float] = lambda: -math.inf
+
+
 class SetupPublisher:
     """Publishes calibration, tools, plan and registration of the open case.
 
@@ -52,36 +68,33 @@ class SetupPublisher:
 
     Args:
         store: the case store.
-        publish_setup: called with the new setup after each change.
+        link: receives the new setup and the facts for the alarms after each change.
         procedure: state of the procedure, which decides whether numbers are withheld.
         drill_references: Builds the reference with which the drill is compared.
         defaults: setup from the settings; a calibration of another camera source, or a registration that is
             anchored to another reference, is not used.
         markers: source of the case's markers.
         latency: returns the last measured latency of the camera; None if it was not measured.
-        publish_facts: called with the facts for the alarms after each change.
     """
 
     def __init__(
         self,
         store: CaseStore,
-        publish_setup: Callable[[CaseSetup], None],
+        link: TrackingLink,
         *,
         procedure: Procedure,
         drill_references: DrillReferenceBuilder,
         defaults: SetupDefaults,
         markers: MarkerStep,
-        publish_facts: Callable[[ProcedureFacts], None],
         latency: Callable[[], MeasuredLatency | None] = lambda: None,
     ) -> None:
         self._store = store
-        self._publish_setup = publish_setup
+        self._link = link
         self._procedure = procedure
         self._defaults = defaults
         self._lock = threading.Lock()
         self._drill_references = drill_references
         self._markers = markers
-        self._publish_facts = publish_facts
         self._latency = latency
         self._published: tuple[tuple[str, ...], DrillReference | None, MeasuredLatency | None] = (
             (),
@@ -103,11 +116,11 @@ class SetupPublisher:
                 self._published[0],
                 self._published[2],
             ) or drill_reference is not self._published[1]:
-                self._publish_setup(
+                self._link.publish_setup(
                     replace(self._setup_of(documents), drill_reference=drill_reference, latency=latency)
                 )
                 self._published = (ids, drill_reference, latency)
-                self._publish_facts(facts_of(self._procedure.state(), now_s=time.monotonic()))
+                self._link.publish_facts(facts_of(self._procedure.state(), now_s=time.monotonic()))
 
     def _documents(self) -> list[Document]:
         """Return the valid documents of the open case that are part of the setup."""

@@ -1,6 +1,5 @@
 """All steps of the procedure, created together for one server."""
 
-import math
 import secrets
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -8,7 +7,6 @@ from types import MappingProxyType
 
 import structlog
 
-from server.alarms import ProcedureFacts
 from server.capture.address import SourceKind, source_from_text
 from server.certificate import InstalledCertificates
 from server.config import Config
@@ -30,11 +28,10 @@ from server.procedure.plan import PlanStep
 from server.procedure.readout import ReadoutStep
 from server.procedure.registration import RegistrationSteps
 from server.procedure.setup_check import SetupChecker
-from server.procedure.setup_publisher import SetupPublisher
+from server.procedure.setup_publisher import SetupPublisher, TrackingLink
 from server.procedure.state import Procedure, SetupDefaults
 from server.procedure.surface import SurfaceStep
 from server.procedure.tool import ToolStep
-from server.setup import CaseSetup
 from server.store import CaseStore, StoreError
 from server.store.latency_file import LatencyFile
 from tracker.marker import MarkerModel
@@ -103,10 +100,8 @@ class Steps:
         jobs: Jobs,
         config: Config,
         markers: Sequence[MarkerModel],
-        publish_setup: Callable[[CaseSetup], None],
+        tracking: TrackingLink,
         tools: Mapping[str, ToolModel] = NO_TOOLS,
-        publish_facts: Callable[[ProcedureFacts], None] = lambda _: None,
-        tracked_from_s: Callable[[], float] = lambda: -math.inf,
     ) -> "Steps":
         """Create the steps and start publishing each change of the open case.
 
@@ -116,23 +111,20 @@ class Steps:
             jobs: runs long computations.
             config: acceptance limits, and the configured tools.
             markers: markers that are tracked in every case.
-            publish_setup: sends the setup of the open case to the tracking process.
+            tracking: connection to tracking and alarms.
             tools: tools of the settings, which are used in every case.
-            publish_facts: sends the facts of the procedure to the alarms.
-            tracked_from_s: start of the current tracking process, on the image clock.
         """
         defaults = defaults_from_config(config)
         marker_step = MarkerStep(store=store, defaults=markers)
-        procedure = _procedure(store, config, defaults, tracked_from_s)
+        procedure = _procedure(store, config, defaults, tracking.tracked_from_s)
         latencies = LatencyFile(store.home.folder)
         setup_publisher = SetupPublisher(
             store,
-            publish_setup,
+            tracking,
             procedure=procedure,
             drill_references=DrillReferenceBuilder(store=store, jobs=jobs),
             defaults=defaults,
             markers=marker_step,
-            publish_facts=publish_facts,
             latency=lambda: _latency(latencies, defaults.source),
         )
         _publish_changes(setup_publisher, store)

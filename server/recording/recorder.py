@@ -141,7 +141,7 @@ class Recorder:
             problem = self.status.problem or _ended(exit_text(self._process.exitcode))
         except Exception as error:
             log.exception("the recording failed")
-            problem = _ended(f"{type(error).__name__}: {error}")
+            problem = _ended(f"because of an error ({type(error).__name__}: {error})")
         finally:
             self._alarms.record_steps(None)
             self._tracked.record(is_recording=False)
@@ -202,4 +202,5 @@ def _ended(how: str) -> Problem:
         code="RECORDING_PROCESS_ENDED",
         message=f"the recording process ended {how}",
         remedy="Start the recording again; the part written so far is readable. Navigation continues.",
+        context={"exit": how},
     )

@@ -128,7 +128,7 @@ def write_video(
 
 
 def _require_encoder() -> None:
-    why = "videos are written with PyAV, which is not installed"
+    why = "they are written with PyAV, which is not installed"
     try:
         import av  # noqa: PLC0415  optional
     except ImportError:
@@ -139,8 +139,9 @@ def _require_encoder() -> None:
     if not has_encoder:
         raise RecordingError(
             "VIDEO_ENCODER_MISSING",
-            why,
+            f"videos cannot be written: {why}",
             'Install it into the environment of Coaxial: pip install "coaxial[video]", or pip install av.',
+            {"encoder_problem": why},
         )
 
 

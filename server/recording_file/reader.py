@@ -176,14 +176,13 @@ def known_packing(path: Path, encoding: str) -> Packing:
     try:
         return Packing(encoding)
     except ValueError as error:
-        why = f"this version cannot read its images ({encoding[:40]})"
-        raise _not_readable(path, why, encoding=encoding[:40]) from error
+        raise _not_readable(path, f"this version cannot read its images ({encoding[:40]})") from error
 
 
-def _not_readable(path: Path, why: str, **values: str) -> RecordingError:
+def _not_readable(path: Path, why: str) -> RecordingError:
     return RecordingError(
         "RECORDING_NOT_READABLE",
         f"{path} cannot be read as a recording: {why}",
         "Give a recording of Coaxial (.mcap).",
-        {"file": str(path), "read_problem": why, "system_error": why, **values},
+        {"file": str(path), "read_problem": why, "system_error": why},
     )

@@ -187,9 +187,14 @@ def _shown(value: object) -> str:
 
 def _unreadable(name: str, why: str) -> InvalidInput:
     return InvalidInput(
-        "MARKUPS_UNREADABLE", f"{name} is not a file of markups: {why}", REMEDY, {"file": name}
+        "MARKUPS_UNREADABLE",
+        f"{name} is not a file of markups: {why}",
+        REMEDY,
+        {"file": name, "markup_problem": why},
     )
 
 
 def _invalid(name: str, why: str) -> InvalidInput:
-    return InvalidInput("MARKUPS_INVALID", f"{name} cannot be used: {why}", REMEDY, {"file": name})
+    return InvalidInput(
+        "MARKUPS_INVALID", f"{name} cannot be used: {why}", REMEDY, {"file": name, "markup_problem": why}
+    )

@@ -141,9 +141,14 @@ CLASSES: Mapping[str, tuple[int, Rotation]] = {
 
 def _unreadable(name: str, why: str) -> InvalidInput:
     return InvalidInput(
-        "TRANSFORM_UNREADABLE", f"{name} is not a readable transform: {why}", REMEDY, {"file": name}
+        "TRANSFORM_UNREADABLE",
+        f"{name} is not a readable transform: {why}",
+        REMEDY,
+        {"file": name, "transform_problem": why},
     )
 
 
 def _invalid(name: str, why: str) -> InvalidInput:
-    return InvalidInput("TRANSFORM_INVALID", f"{name} cannot be used: {why}", REMEDY, {"file": name})
+    return InvalidInput(
+        "TRANSFORM_INVALID", f"{name} cannot be used: {why}", REMEDY, {"file": name, "transform_problem": why}
+    )

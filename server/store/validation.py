@@ -33,7 +33,7 @@ def validate_name(name: str, *, of: str) -> str:
         "NAME_INVALID",
         f"the {of} {problem}, allowed are 1 to {MAX_NAME_LENGTH} characters on one line",
         "Give another one.",
-        {"letters": len(stored), "allowed": MAX_NAME_LENGTH},
+        {"letters": len(stored), "allowed": MAX_NAME_LENGTH, "name_of": of, "name_problem": problem},
     )
 
 
@@ -70,7 +70,7 @@ def content_to_json(content: Mapping[str, object]) -> str:
         size = len(text.encode("utf-8"))
     except (ValueError, TypeError) as error:
         # A lone surrogate is a valid Python string, but cannot be encoded.
-        raise _not_json("", str(error)[:200]) from error
+        raise _not_json("", f"it cannot be encoded ({str(error)[:200]})") from error
     if size > MAX_CONTENT_BYTES:
         raise InvalidInput(
             "CONTENT_TOO_LARGE",
@@ -110,9 +110,10 @@ def _reject_other_than_json(content: object) -> None:
 
 def _not_json(where: str, why: str) -> InvalidInput:
     place = where.lstrip(".")[:120]
+    at = f"at {place} " if place else ""
     return InvalidInput(
         "CONTENT_NOT_JSON",
-        f"the document cannot be stored as JSON: {f'at {place} ' if place else ''}{why}",
+        f"the document cannot be stored as JSON: {at}{why}",
         "Give texts, finite numbers, true, false, null, and lists and mappings of them.",
-        {"where": place},
+        {"where": place, "json_place": at, "json_problem": why},
     )

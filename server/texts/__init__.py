@@ -18,14 +18,14 @@ answer to a request has the language of the request. A value is formatted by the
 with the same format, so that its digits are the same. Texts that a person typed, names of devices and what
 another program reported are not translated.
 
-An error is raised in English. To translate one, add its template to the module of its area and its remedy to
-`errors/remedies`, and give the error its values by name in `context`. Errors without German stay English;
-`tests/server/texts/test_error_texts.py` counts them, and the number may only fall.
+An error is raised in English. To translate one, add its template to the module of its area, its remedy to
+`errors/remedies` and the parts that depend on the case to `errors/phrases`, and give the error its values by
+name in `context`. `tests/server/texts/test_error_texts.py` requires German of each error that a page shows.
 """
 
 from server.texts.alarms import AlarmText, alarm_text, alarm_title, with_unknown_presence
 from server.texts.camera_note import PREDICTED_VIDEO, CameraNote
-from server.texts.errors import error_reason, reason_of_error
+from server.texts.errors import error_reason, phrase_text, reason_of_error
 from server.texts.flicker import flicker_note
 from server.texts.headline import Headline, Tone, headline_of
 from server.texts.language import LANGUAGES, NO_TEXT, Language, Text
@@ -60,6 +60,7 @@ __all__ = [
     "error_reason",
     "flicker_note",
     "headline_of",
+    "phrase_text",
     "reason",
     "reason_error",
     "reason_of_error",

@@ -38,7 +38,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import Instant, LiveHub, Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.logs import LogSettings
-from server.procedure.steps import Steps
+from server.procedure import Steps, TrackingLink
 from server.store import CaseStore, Home
 from tests.server.texts.drilled_rod import UNSEEN, concluded, seen_at, setup_of
 from tests.tracker.navigation.assessed import drill_reference
@@ -270,7 +270,7 @@ def parts_with_store(ending: ExitStack, parts: AppParts) -> AppParts:
         jobs=jobs,
         config=parts.config,
         markers=[],
-        publish_setup=lambda _: None,
+        tracking=TrackingLink(publish_setup=lambda _: None),
     )
     return replace(parts, store=store, jobs=jobs, steps=steps)
 

@@ -21,9 +21,14 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.logs import LogSettings
-from server.procedure import Steps
+from server.procedure import Steps, TrackingLink
 from server.procedure.plan import ACTIVE_CHANNEL, ActiveChannel
-from server.procedure.registration_record import CheckRecord, RegistrationRecord, check_name
+from server.procedure.registration_record import (
+    CheckRecord,
+    RegistrationEvidence,
+    RegistrationRecord,
+    check_name,
+)
 from server.store import CaseStore, DocumentKind, Home
 from tests.browser.fake_server import Feeder, setup
 from tests.procedure.patient import CAMERA_FROM_VERTEBRA, plan_content
@@ -58,18 +63,19 @@ def fill(store: CaseStore, run: str) -> None:
     )
     stored = RegistrationRecord.of(
         Registration.known_to_camera(CAMERA_FROM_VERTEBRA),
+        RegistrationEvidence(
+            numbers={
+                "points": 4,
+                "fre_rms_mm": 0.41,
+                "max_fre_mm": 1.5,
+                "tre_at_entry_mm": 0.87,
+                "max_tre_mm": 2.0,
+            },
+            from_s=0.0,
+        ),
         vertebra="L3",
         reference="",
         run=run,
-        numbers={
-            "points": 4,
-            "fre_rms_mm": 0.41,
-            "max_fre_mm": 1.5,
-            "tre_at_entry_mm": 0.87,
-            "max_tre_mm": 2.0,
-        },
-        made_from={},
-        from_s=0.0,
     )
     registration = store.put(
         case.id,
@@ -134,7 +140,7 @@ def main() -> None:
             jobs=jobs,
             config=CONFIG,
             markers=(),
-            publish_setup=lambda _: None,
+            tracking=TrackingLink(publish_setup=lambda _: None),
         )
         fill(store, steps.procedure.run)
         put_recordings(store)

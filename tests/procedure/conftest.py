@@ -19,7 +19,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import CameraStatus, Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.logs import LogSettings
-from server.procedure import Steps
+from server.procedure import Steps, TrackingLink
 from server.setup import CaseSetup, Preparation, build_setup
 from server.store import CaseStore, Home
 from tests.server.recording.no_recorder import recordings_without_process
@@ -130,8 +130,7 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
             jobs=jobs,
             config=config,
             markers=preparation.models,
-            publish_setup=adopted.append,
-            tracked_from_s=lambda: tracked_from_s[-1],
+            tracking=TrackingLink(publish_setup=adopted.append, tracked_from_s=lambda: tracked_from_s[-1]),
         )
         recordings = recordings_without_process(store, config)
         app = create_app(

@@ -4,9 +4,11 @@ import re
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from tests.procedure.conftest import Server
 from tests.procedure.patient import DRILL, USED, Patient, ready
-from tests.procedure.test_camera_step import open_a_case
+from tests.procedure.test_camera_step import DOTS, open_a_case, png
 
 POINTS = "/api/registration/points"
 GERMAN = {"Accept-Language": "de-DE,de;q=0.9,en;q=0.8"}
@@ -83,3 +85,16 @@ def test_a_document_out_of_date_states_its_reason_in_the_requested_language(serv
     assert (german["steps"][2]["state"], german["steps"][2]["message"]) == ("out_of_date", because)
     _, german = in_both(server, "GET", documents, 200)
     assert because in [one["out_of_date"] for one in german["documents"]]
+
+
+def test_a_collection_of_board_views_advises_and_rejects_in_the_requested_language(server: Server) -> None:
+    open_a_case(server)
+    server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    english, german = in_both(server, "GET", "/api/camera/collection", 200)
+    assert english["missing"] == ["Show the board to the camera."]
+    assert german["missing"] == ["Die Tafel der Kamera zeigen."]
+    empty = png(np.full((200, 300), 128, np.uint8))
+    english, german = in_both(server, "POST", "/api/camera/collection/images", 422, content=empty)
+    assert english["message"] == "the board was not found in sent: no dots that stand in a grid"
+    assert german["message"] == "die Tafel wurde in sent nicht gefunden: keine Punkte, die ein Raster bilden"
+    assert german["language"] == "de"

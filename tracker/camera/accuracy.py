@@ -201,6 +201,7 @@ def _checked_fit(
             "ACCURACY_INVALID",
             f"points of shape {on_plane.shape} were seen at pixels of shape {seen.shape}, needed (n, 2) each",
             "Give two coordinates in mm and two in px for each point.",
+            {"shape": str(on_plane.shape), "px_shape": str(seen.shape)},
         )
     if not (np.isfinite(on_plane).all() and np.isfinite(seen).all()):
         raise InvalidInput(
@@ -284,4 +285,5 @@ def _plane_unknown(problem: str) -> CalibrationError:
         "ACCURACY_PLANE_UNKNOWN",
         f"the plane of the displacements is not determined: {problem}",
         "Give more points of the plane, spread over it and other than those that are measured.",
+        {"plane_problem": problem},
     )

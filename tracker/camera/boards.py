@@ -283,4 +283,5 @@ def _invalid(what: str) -> InvalidInput:
         f"there is no such calibration board: {what}",
         "Count the board again: dots, or inner corners of a checkerboard, or squares of a ChArUco board, "
         "or tags of an AprilGrid.",
+        {"board_fault": what},
     )

@@ -39,6 +39,7 @@ class Displacements:
                 "DISPLACEMENTS_INVALID",
                 f"the displacements cannot be used: {problem}",
                 "Give the two ends of each displacement, in mm on the plane and in px in the image.",
+                {"displacement_problem": problem},
             )
 
     @property

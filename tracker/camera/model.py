@@ -102,6 +102,7 @@ class CameraModel:
                 f"the camera file has a value that is no number: {error}",
                 "A camera file has matrix (3 rows of 3), distortion (4, 5, 8, 12 or 14 numbers) "
                 "and size_wh_px (width, height).",
+                {"library_error": str(error)},
             ) from error
         return cls(matrix=matrix, distortion=distortion, size_wh_px=size_wh_px)
 
@@ -150,7 +151,12 @@ def _made(matrix: Array, distortion: Array, size_wh_px: tuple[int, int]) -> Came
 
 
 def _invalid(problem: str, remedy: str) -> InvalidInput:
-    return InvalidInput("CAMERA_MODEL_INVALID", f"the camera model cannot be used: {problem}", remedy)
+    return InvalidInput(
+        "CAMERA_MODEL_INVALID",
+        f"the camera model cannot be used: {problem}",
+        remedy,
+        {"camera_problem": problem},
+    )
 
 
 def _malformed(matrix: Array, distortion: Array, size_wh_px: Array) -> str:

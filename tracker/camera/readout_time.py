@@ -271,7 +271,7 @@ def _reject_motion(images: Sequence[_Image], estimate: ReadoutEstimate) -> None:
             "READOUT_TOO_SLOW",
             f"the board moved at {estimate.speed_px_s:.0f} px/s, needed {MIN_SPEED_PX_S:.0f} px/s ({found})",
             MOVE,
-            context,
+            {**context, "min_speed_px_s": MIN_SPEED_PX_S},
         )
     forth, back = _ways(images)
     if min(len(forth), len(back)) < MIN_WAYS:
@@ -280,7 +280,7 @@ def _reject_motion(images: Sequence[_Image], estimate: ReadoutEstimate) -> None:
             f"the board moved one way in {len(forth)} images and back in {len(back)}, "
             f"needed {MIN_WAYS} of each",
             MOVE,
-            context,
+            {**context, "forth": len(forth), "back": len(back), "needed": MIN_WAYS},
         )
 
 
@@ -291,7 +291,7 @@ def _reject_uncertain(estimate: ReadoutEstimate) -> None:
         "READOUT_UNOBSERVABLE",
         f"this motion does not determine the readout time: {_found(estimate)}, allowed {MAX_SD_MS:.1f} ms",
         "Hold the board nearer, so that it fills half of the picture, and facing the camera. " + MOVE,
-        _context(estimate),
+        {**_context(estimate), "max_sd_ms": MAX_SD_MS},
     )
 
 
@@ -304,6 +304,7 @@ def _context(estimate: ReadoutEstimate) -> dict[str, object]:
         "speed_px_s": round(estimate.speed_px_s),
         "sd_ms": round(estimate.sd_ms, 2),
         "images": estimate.images,
+        "readout_estimate": _found(estimate),
     }
 
 
@@ -314,9 +315,9 @@ def _reject_impossible(estimate: ReadoutEstimate, period_s: float) -> None:
     raise CalibrationError(
         "READOUT_IMPOSSIBLE",
         f"{_found(estimate)}: it must be between 0 and the {1000.0 * period_s:.1f} ms between images",
-        "Switch off rotation and mirroring of the image; otherwise the times of the images are wrong: try "
-        "another port.",
-        {"readout_ms": round(estimate.readout_ms, 2), "period_ms": round(1000.0 * period_s, 2)},
+        "Switch off rotation and mirroring of the image. If that does not help, the times of the images are "
+        "wrong: try another port.",
+        {**_context(estimate), "readout_ms": round(estimate.readout_ms, 2), "period_ms": 1000.0 * period_s},
     )
 
 

@@ -106,5 +106,5 @@ def _unusable(problem: str, context: dict[str, object]) -> InvalidInput:
         "RULER_INVALID",
         f"the ruler cannot be used: {problem}",
         "Measure V and H from the camera to the object in mm again, and a displacement that can be seen.",
-        context,
+        {**context, "ruler_problem": problem},
     )

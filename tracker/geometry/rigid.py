@@ -45,7 +45,7 @@ class Rigid(Generic[To, From]):
                 f"a pose is not a rigid motion: its rotation deviates from orthonormal by {off:.3g}, "
                 f"allowed {ORTHONORMAL_TOLERANCE:g}, and all numbers must be finite",
                 "Check the source of this 4x4 matrix: no scale, no reflection, row-major order.",
-                {"off_orthonormal": off},
+                {"off_orthonormal": off, "allowed": ORTHONORMAL_TOLERANCE},
             )
         rotation.setflags(write=False)
         translation.setflags(write=False)

@@ -61,7 +61,7 @@ class MarkerModel:
                 "MARKER_IMAGE_INVALID",
                 f"the image of marker '{name}' cannot be used: {problem}",
                 "Give a square grey image that the black square fills edge to edge, with no white margin.",
-                {"name": name, "shape": list(grey.shape)},
+                {"name": name, "shape": list(grey.shape), "marker_problem": problem},
             )
         if not (np.isfinite(side_mm) and side_mm > 0.0):
             raise InvalidInput(

@@ -63,12 +63,14 @@ def grey_of(image: npt.NDArray[np.uint8], *, size_wh_px: tuple[int, int]) -> Gre
             "IMAGE_INVALID",
             f"an image is {type(image).__name__}, needed an array uint8 (h, w) or (h, w, 3)",
             "Check that the image file exists.",
+            {"given": type(image).__name__},
         )
     if image.dtype != np.uint8 or not (image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)):
         raise InvalidInput(
             "IMAGE_INVALID",
             f"an image is {image.dtype} of shape {image.shape}, needed uint8 (h, w) or (h, w, 3)",
             "Give grey or BGR images with 8 bits.",
+            {"shape": str(image.shape), "dtype": str(image.dtype)},
         )
     height, width = image.shape[:2]
     if (width, height) != size_wh_px:

@@ -234,5 +234,6 @@ def _check_jitter(jitter: float, gaps: Array, spacing: float) -> None:
             "allowed_mm": allowed,
             "min_mm": float(gaps.min()),
             "max_mm": float(gaps.max()),
+            "gap_problem": how,
         },
     )

@@ -34,7 +34,11 @@ class Surface:
                 "SURFACE_INVALID",
                 f"the surface cannot be used: {problem}",
                 "Export the surface again as triangles, in mm of the patient's coordinates.",
-                {"vertices": int(vertices.shape[0]), "faces": int(faces.shape[0])},
+                {
+                    "vertices": int(vertices.shape[0]),
+                    "faces": int(faces.shape[0]),
+                    "mesh_problem": problem,
+                },
             )
         vertices.setflags(write=False)
         faces.setflags(write=False)

@@ -42,7 +42,7 @@ class Volume:
                 "VOLUME_INVALID",
                 f"the CT cannot be used: {problem}",
                 "Export the series again as DICOM or NIfTI with its geometry, at least two slices.",
-                {"shape": list(self.hu.shape)},
+                {"shape": list(self.hu.shape), "volume_problem": problem},
             )
         affine.setflags(write=False)
         object.__setattr__(self, "lps_from_ijk", affine)

@@ -225,6 +225,8 @@ def _reject_unseen(samples: Sequence[TipSample | UnseenSample], rate: CaptureRat
                 "unseen": len(reasons),
                 "reason": reason,
                 "rate_hz": _hz(rate),
+                "at_rate": _at(rate),
+                "unseen_reason": reason,
             },
         )
 
@@ -242,7 +244,14 @@ def _reject_interrupted(
             f"{gap_s:.2f} s passed between two of {len(seen)} images, allowed {allowed_s:.2f} s at "
             f"{rate.text}: the tip could have moved in between",
             f"Hold the tip still, and touch the landmark again.{rate.remedy}",
-            {"images": len(seen), "gap_s": gap_s, "allowed_s": allowed_s, "rate_hz": rate.tracked_hz},
+            {
+                "images": len(seen),
+                "gap_s": gap_s,
+                "allowed_s": allowed_s,
+                "rate_hz": rate.tracked_hz,
+                "rate_text": rate.text,
+                "rate_remedy": rate.remedy,
+            },
         )
 
 
@@ -267,7 +276,7 @@ def _reject_short(seen: Sequence[TipSample], rate: CaptureRate | None, settings:
             "CAPTURE_RATE_TOO_LOW",
             f"{settings.min_images} images take {hold_s:.1f} s at {rate.text}, allowed {settings.max_s:g} s",
             f"Touch the landmark again when images come faster.{rate.remedy}",
-            context,
+            {**context, "rate_text": rate.text, "rate_remedy": rate.remedy},
         )
     order = "" if in_order else ", out of order"
     how_long = "" if rate is None else f" for {hold_s:.1f} s at {rate.text},"
@@ -276,7 +285,7 @@ def _reject_short(seen: Sequence[TipSample], rate: CaptureRate | None, settings:
         f"there are {len(seen)} images over {lasted_s:.2f} s{_at(rate)}{order}, needed "
         f"{settings.min_images} over {settings.min_s:g} s",
         f"Hold the tip still on the landmark{how_long} until it is taken.",
-        context,
+        {**context, "at_rate": _at(rate), "order": order, "hold_hint": how_long},
     )
 
 

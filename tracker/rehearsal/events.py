@@ -77,5 +77,5 @@ def rejected(key: str, value: object, allowed: str) -> InvalidInput:
         "REHEARSAL_SETTING_INVALID",
         f"the rehearsal's {key} is {value}, allowed is {allowed}",
         f"Set {key} to {allowed}.",
-        {"key": key, "value": value},
+        {"key": key, "value": value, "allowed_values": allowed},
     )

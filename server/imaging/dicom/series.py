@@ -42,12 +42,16 @@ def group_frames_by_series(container: Container, progress: Progress) -> dict[str
             {"damaged": damaged, "files": len(container.entries)},
         )
     if not series:
-        why = ", ".join(f"{one.count} {one.reason}" for one in container.left_out)
+        files, excluded = len(container.entries) + _beforehand(container), container.excluded_text
         raise InvalidInput(
             "CT_NO_DICOM",
-            f"no DICOM slice among {len(container.entries) + _beforehand(container)} files: {why}",
+            f"no DICOM slice among {files} files: {excluded}",
             "Give a folder or zip of the CT's DICOM slices, or a NIfTI file.",
-            {one.reason.replace(" ", "_"): one.count for one in container.left_out},
+            {
+                **{one.reason.replace(" ", "_"): one.count for one in container.left_out},
+                "files": files,
+                "excluded_files": excluded,
+            },
         )
     return series
 

@@ -147,5 +147,5 @@ def damaged(entry: Entry, why: str) -> InvalidInput:
         "CT_FILE_DAMAGED",
         f"the NIfTI file of {entry.size} bytes is truncated or damaged: {why}",
         "Copy or convert the file again.",
-        {"bytes": entry.size},
+        {"bytes": entry.size, "nifti_problem": why},
     )

@@ -74,7 +74,9 @@ class CtProvider:
         return MappedCt(
             document=document,
             file=file,
-            volume=load_volume(str(file.path), document.content.get("lps_from_ijk"), title=document.title),
+            volume=load_volume(
+                str(file.path), document.content.get("lps_from_ijk"), title=document.title_text
+            ),
         )
 
 
@@ -83,5 +85,5 @@ def _invalid(document: Document, why: str) -> InvalidInput:
         "CT_DOCUMENT_INVALID",
         f"{document.title} cannot be used: {why}",
         "Upload the CT again.",
-        {"document_id": document.id},
+        {"document_id": document.id, "title": document.title_text, "document_problem": why},
     )

@@ -216,6 +216,8 @@ def _not_captured(capture: CaptureStatus) -> RegistrationError:
             "needed": capture.wanted,
             "rate_hz": capture.rate_hz,
             "left_s": capture.left_s,
+            "at_rate": at_rate,
+            "left_hint": how_long,
         },
     )
 

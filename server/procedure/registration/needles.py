@@ -14,7 +14,7 @@ from server.procedure.registration.needle_records import (
     ProposedSlice,
 )
 from server.procedure.registration.repository import RegistrationRepository
-from server.procedure.registration_record import Value
+from server.procedure.registration_record import RegistrationEvidence, Value
 from server.store import Document
 from tracker.errors import CalibrationError, InvalidInput, PlanError, RegistrationError
 from tracker.geometry import Camera, Rigid, Vertebra
@@ -212,10 +212,12 @@ class NeedleStep:
         return self._repository.put(
             scene.context,
             registration,
-            numbers=numbers_of(placed, fit),
-            made_from=_made_from(placed, fit, way),
+            RegistrationEvidence(
+                numbers=numbers_of(placed, fit),
+                made_from=_made_from(placed, fit, way),
+                from_s=scene.snapshot.captured_at_s,
+            ),
             made_by=made_by,
-            from_s=scene.snapshot.captured_at_s,
         )
 
 

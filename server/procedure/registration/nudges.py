@@ -10,7 +10,12 @@ from server.clock import utc_now, utc_text
 from server.config import RegistrationConfig
 from server.procedure.registration.context import RegistrationContextFinder
 from server.procedure.registration.repository import RegistrationRepository, StoredRegistration
-from server.procedure.registration_record import NudgeHistory, NudgeRecord, RegistrationRecord
+from server.procedure.registration_record import (
+    NudgeHistory,
+    NudgeRecord,
+    RegistrationEvidence,
+    RegistrationRecord,
+)
 from server.store import Document
 from tracker.geometry import Array
 from tracker.registration.nudge import Nudge, NudgedRegistration, NudgeLimits
@@ -133,17 +138,19 @@ class NudgeStep:
         registration = after.registration
         changed = RegistrationRecord.of(
             registration,
+            RegistrationEvidence(
+                numbers={
+                    **stored.record.numbers,
+                    "nudges": len(nudges),
+                    "nudged_mm": after.shift_mm,
+                    "nudged_deg": after.rotation_deg,
+                },
+                made_from=stored.record.made_from,
+                from_s=stored.record.from_s,
+            ),
             vertebra=stored.record.vertebra,
             reference=stored.record.reference,
             run=stored.record.run,
-            numbers={
-                **stored.record.numbers,
-                "nudges": len(nudges),
-                "nudged_mm": after.shift_mm,
-                "nudged_deg": after.rotation_deg,
-            },
-            made_from=stored.record.made_from,
-            from_s=stored.record.from_s,
         )
         history = NudgeHistory(
             anchor_from_vertebra=after.made.anchor_from_vertebra.matrix.tolist(),

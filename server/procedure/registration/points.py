@@ -13,7 +13,7 @@ from server.procedure.registration.capture_settings import capture_settings
 from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
 from server.procedure.registration.points_session import PointsSession, PointsStatus, residuals_mm
 from server.procedure.registration.repository import RegistrationRepository
-from server.procedure.registration_record import ExpectedCovariance, Value
+from server.procedure.registration_record import ExpectedCovariance, RegistrationEvidence, Value
 from server.store import Document
 from tracker.errors import RegistrationError
 from tracker.geometry import inverse_covariance
@@ -130,11 +130,13 @@ class PointsStep(CollectingStep[PointsSession]):
         document = self._repository.put(
             session.context,
             status.fit.registration(session.context.anchored_to),
-            numbers=self.numbers(status, status.fit),
-            made_from=made_from(status),
+            RegistrationEvidence(
+                numbers=self.numbers(status, status.fit),
+                made_from=made_from(status),
+                from_s=status.from_s,
+                with_more_landmarks=with_more_landmarks(status.fit),
+            ),
             made_by=made_by,
-            from_s=status.from_s,
-            with_more_landmarks=with_more_landmarks(status.fit),
         )
         self.end()
         return document

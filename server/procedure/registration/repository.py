@@ -13,9 +13,8 @@ from server.errors import SetupOrderError
 from server.procedure.open_case import require_open_case
 from server.procedure.registration.context import RegistrationContext
 from server.procedure.registration_record import (
-    ExpectedCovariance,
+    RegistrationEvidence,
     RegistrationRecord,
-    Value,
     registration_from_document,
 )
 from server.procedure.state import Procedure, SetupDefaults
@@ -92,14 +91,11 @@ class RegistrationRepository:
         self,
         context: RegistrationContext,
         registration: Registration,
+        evidence: RegistrationEvidence,
         *,
-        numbers: dict[str, Value],
-        made_from: dict[str, object],
         made_by: str,
-        from_s: float | None,
         also_on: Sequence[str] = (),
         expected_version: int | None = None,
-        with_more_landmarks: Sequence[ExpectedCovariance] = (),
     ) -> Document:
         """Store an accepted registration as the next version for its vertebra.
 
@@ -108,13 +104,10 @@ class RegistrationRepository:
         """
         record = RegistrationRecord.of(
             registration,
+            evidence,
             vertebra=context.vertebra.name,
             reference=context.reference,
             run=self._procedure.run,
-            numbers=numbers,
-            made_from=made_from,
-            from_s=from_s,
-            with_more_landmarks=with_more_landmarks,
         )
         return self._store.put(
             context.case_id,

@@ -13,7 +13,7 @@ from server.procedure.live_listener import LiveListener
 from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
 from server.procedure.registration.landmark_capture import tip_of
 from server.procedure.registration.repository import RegistrationRepository, StoredRegistration
-from server.procedure.registration_record import RegistrationRecord, Value
+from server.procedure.registration_record import RegistrationEvidence, RegistrationRecord, Value
 from server.procedure.state import Procedure, StepName
 from server.procedure.surface import SurfaceStep
 from server.store import Document
@@ -217,17 +217,19 @@ class SweepStep(CollectingStep[SweepSession]):
                 found.registration(status.context.anchored_to),
                 tracking_covariance_mm2=status.start.record.registration.tracking_covariance_mm2,
             ),
-            numbers=self.numbers(status, found),
-            made_from={
-                "tool": status.context.tool,
-                "start_version": status.start.document.version,
-                "points": status.start.record.made_from.get("points", []),
-                "weakest": found.weakest_mode.description,
-                "remarks": [remark.message for remark in found.remarks],
-                "sweep_in_anchor_mm": np.round(self.collection.points_mm, 3).tolist(),
-            },
+            RegistrationEvidence(
+                numbers=self.numbers(status, found),
+                made_from={
+                    "tool": status.context.tool,
+                    "start_version": status.start.document.version,
+                    "points": status.start.record.made_from.get("points", []),
+                    "weakest": found.weakest_mode.description,
+                    "remarks": [remark.message for remark in found.remarks],
+                    "sweep_in_anchor_mm": np.round(self.collection.points_mm, 3).tolist(),
+                },
+                from_s=self._from_s(status),
+            ),
             made_by=made_by,
-            from_s=self._from_s(status),
             also_on=[surface_id],
             expected_version=status.start.document.version,
         )

@@ -37,7 +37,7 @@ def read_people(file: Path) -> tuple[list[Invitation], list[Session]]:
             "PEOPLE_DAMAGED",
             f"the file of people {file} cannot be read: {error}",
             "Move the file to another folder and start again; everybody then has to be invited again.",
-            {"file": str(file)},
+            {"file": str(file), "library_error": str(error)},
         ) from error
 
 

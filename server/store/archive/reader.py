@@ -120,7 +120,9 @@ def parse_part(form: type[Shape], text: bytes, *, where: str) -> Shape:
     except ValidationError as error:
         first = error.errors(include_input=False, include_url=False)[0]
         key = ".".join(str(step) for step in first["loc"])
-        raise archive_error(f"{where}: {key}: {first['msg']}", where=where, key=key) from error
+        raise archive_error(
+            f"{where}: {key or 'JSON'} is invalid ({first['msg']})", where=where, key=key
+        ) from error
 
 
 def _entries(archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:

@@ -102,5 +102,5 @@ def archive_error(why: str, **context: object) -> InvalidInput:
         "ARCHIVE_INVALID",
         f"the archive cannot be imported: {why}",
         "Export the case again on its server; nothing of this archive was stored.",
-        context,
+        {**context, "archive_problem": why},
     )

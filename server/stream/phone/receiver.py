@@ -171,5 +171,5 @@ class Receiver:
             message=f"images of the phone arrive {age_s:.1f} s after their capture, limit {MAX_AGE_S:g} s",
             remedy="Move the phone closer to its access point, or set smaller images with camera.width and "
             "camera.height.",
-            context={"limit_s": MAX_AGE_S},
+            context={"age_s": age_s, "limit_s": MAX_AGE_S},
         )

@@ -180,5 +180,11 @@ def _problem_of(jpeg: bytes) -> Problem | None:
         message=f"an image of the phone has {width}x{height} px, "
         f"allowed are {MIN_SIDE_PX} to {MAX_WIDTH_PX}x{MAX_HEIGHT_PX}",
         remedy="Set camera.width and camera.height to a size of the phone's camera.",
-        context={"width_px": width, "height_px": height},
+        context={
+            "width_px": width,
+            "height_px": height,
+            "min_side_px": MIN_SIDE_PX,
+            "max_width_px": MAX_WIDTH_PX,
+            "max_height_px": MAX_HEIGHT_PX,
+        },
     )

@@ -105,14 +105,16 @@ class PictureCache:
 
     def _report(self, error: Exception, size: PictureSize) -> None:
         """Log a failure once, and keep it for the page."""
-        message = f"the overlay cannot be drawn: {type(error).__name__}: {error}"
-        if self.problem is None or self.problem.message != message:
-            _log.error("a picture could not be drawn or encoded", size=size, exc_info=error)
-        self.problem = Problem(
+        reason = f"{type(error).__name__}: {error}"
+        problem = Problem(
             code="OVERLAY_FAILED",
-            message=message,
+            message=f"the overlay cannot be drawn: {reason}",
             remedy="Restart the program; if the error persists, send the server log to the maintainer.",
+            context={"library_error": reason},
         )
+        if problem != self.problem:
+            _log.error("a picture could not be drawn or encoded", size=size, exc_info=error)
+        self.problem = problem
 
 
 def _decoded(jpeg: bytes) -> npt.NDArray[np.uint8]:

@@ -4,13 +4,18 @@ An error is raised with its code, its message and remedy in English, and its val
 catalogue has the template of that message in all languages. It is used only where the English template with
 the values of the error gives exactly the message that was raised: a translation therefore has the same
 numbers, and an error that was reworded without its translation stays English. A value may be a phrase
-(`phrases.py`), a part of a message that depends on the case; it is found in the same way.
+(`phrases`), a part of a message that depends on the case; it is found in the same way, or else its values are
+read from its English text.
 """
 
+import re
 from collections.abc import Iterator, Mapping
+from functools import cache
+from string import Formatter
 
 from server.texts.errors.catalogue import MESSAGES, REMEDIES
 from server.texts.errors.phrases import PHRASES
+from server.texts.errors.phrases.system import SYSTEM_ERRORS
 from server.texts.language import Text
 from server.texts.reason import Reason, as_is, filled
 from server.texts.steps import KINDS, METHODS, STEPS
@@ -42,7 +47,19 @@ WORDS: Mapping[str, Mapping[str, Text]] = {
             "de": "OP-Bildschirm",
         },
     },
+    "installed": _NONE,
     "markers": _NONE,
+    "reason": {
+        "it is not open": {
+            "en": "it is not open",
+            "de": "sie ist nicht geöffnet",
+        },
+        "no complete image arrived": {
+            "en": "no complete image arrived",
+            "de": "es kam kein vollständiges Bild an",
+        },
+    },
+    "system_error": {text["en"]: text for text in SYSTEM_ERRORS},
     "plane": {
         "axial": {
             "en": "axial",
@@ -81,8 +98,17 @@ WORDS: Mapping[str, Mapping[str, Text]] = {
             "de": "keiner",
         },
     },
+    "divergence": {
+        "numbers that are not finite": {
+            "en": "numbers that are not finite",
+            "de": "nicht endliche Zahlen",
+        },
+    },
     "waits_for": STEPS,
 }
+# A file may state any name in a phrase, and the time of a comparison grows faster than the length.
+MAX_PHRASE_LENGTH = 1000
+_NO_TEXT = re.compile(r"(?!)")
 
 
 def reason_of_error(error: NavigationError) -> Reason:
@@ -100,12 +126,17 @@ def error_reason(code: str, message: str, remedy: str, context: Mapping[str, obj
     return Reason(code=code, message=translated_message, remedy=translated_remedy)
 
 
+def phrase_text(name: str, english: str) -> Text:
+    """Return a phrase in all languages, in English where it has no translation."""
+    return _read_phrase(english, PHRASES[name]) or as_is(english)
+
+
 def _values(context: Mapping[str, object]) -> Mapping[str, object]:
     """Return the values of an error with those that are phrases in all languages."""
     values = {name: _word(name, value) for name, value in context.items()}
     for name, templates in PHRASES.items():
         if isinstance(english := context.get(name), str):
-            phrase = _translation(english, templates, values)
+            phrase = _translation(english, templates, values) or _read_phrase(english, templates)
             if phrase is None:
                 # Without it no template fits: a German sentence must not have an English part.
                 del values[name]
@@ -123,6 +154,37 @@ def _translation(english: str, templates: tuple[Text, ...], values: Mapping[str,
     if not english:
         return as_is("")
     return next((text for text in _filled(templates, values) if text["en"] == english), None)
+
+
+def _read_phrase(english: str, templates: tuple[Text, ...]) -> Text | None:
+    """Return the first template that this English phrase has the form of, with the values that are in it."""
+    if len(english) > MAX_PHRASE_LENGTH:
+        return None
+    for template in templates:
+        found = _pattern(template["en"]).fullmatch(english)
+        if found is not None:
+            text = next(_filled((template,), _values(found.groupdict())), None)
+            if text is not None:
+                return text
+    return None
+
+
+@cache
+def _pattern(template: str) -> re.Pattern[str]:
+    """Return the pattern of a template; of one that formats its values or has no words, one without match."""
+    parts = list(Formatter().parse(template))
+    if not any(literal for literal, *_ in parts):
+        return _NO_TEXT
+    pattern, names = "", set()
+    for literal, name, spec, conversion in parts:
+        pattern += re.escape(literal)
+        if name is None:
+            continue
+        if spec or conversion or not name.isidentifier():
+            return _NO_TEXT
+        pattern += f"(?P={name})" if name in names else f"(?P<{name}>.+?)"
+        names.add(name)
+    return re.compile(pattern, re.DOTALL)
 
 
 def _filled(templates: tuple[Text, ...], values: Mapping[str, object]) -> Iterator[Text]:

@@ -100,4 +100,10 @@ ACCESS: Mapping[str, tuple[Text, ...]] = {
             "de": "es gibt keine Kamera „{requested}“, nur {cameras}",
         },
     ),
+    "PEOPLE_DAMAGED": (
+        {
+            "en": "the file of people {file} cannot be read: {library_error}",
+            "de": "die Datei der Personen {file} ist nicht lesbar: {library_error}",
+        },
+    ),
 }

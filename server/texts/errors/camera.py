@@ -5,8 +5,20 @@ from collections.abc import Mapping
 from server.texts.language import Text
 
 CAMERA: Mapping[str, tuple[Text, ...]] = {
-    "CAMERA_NOT_OPENED": ({"en": "{camera} cannot be opened", "de": "{camera} lässt sich nicht öffnen"},),
-    "CAMERA_STOPPED": ({"en": "{camera} sent no image", "de": "{camera} lieferte kein Bild"},),
+    "CAMERA_NOT_OPENED": (
+        {
+            "en": "{camera} cannot be opened: {reason}",
+            "de": "{camera} lässt sich nicht öffnen: {reason}",
+        },
+        {"en": "{camera} cannot be opened", "de": "{camera} lässt sich nicht öffnen"},
+    ),
+    "CAMERA_STOPPED": (
+        {
+            "en": "{camera} sent no image: {reason}",
+            "de": "{camera} lieferte kein Bild: {reason}",
+        },
+        {"en": "{camera} sent no image", "de": "{camera} lieferte kein Bild"},
+    ),
     "CAMERA_TORN": (
         {
             "en": "{camera} sent {images} images in a row that are incomplete or cannot be decoded",
@@ -130,6 +142,12 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
     "CAMERA_FILE_INCOMPLETE": ({"en": "the camera file lacks {keys}", "de": "der Kameradatei fehlt {keys}"},),
     "CAMERA_SIZE_MISMATCH": (
         {
+            "en": "{image_subject} {image_size_wh_px[0]}x{image_size_wh_px[1]} px, but the camera was "
+            "calibrated at {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px",
+            "de": "{image_subject} {image_size_wh_px[0]}x{image_size_wh_px[1]} px, die Kamera wurde aber "
+            "mit {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px kalibriert",
+        },
+        {
             "en": "images of the board are {image_size_wh_px[0]}x{image_size_wh_px[1]} px, but the camera "
             "was calibrated at {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px, and the readout "
             "time is stored for that size",
@@ -238,6 +256,12 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
     ),
     "CAMERA_CHANGED": (
         {
+            "en": "{control} of the camera changed from {calibrated} to {now} since the calibration, which "
+            "is therefore invalid",
+            "de": "{control} der Kamera änderte sich seit der Kalibrierung von {calibrated} auf {now}, sie "
+            "ist damit ungültig",
+        },
+        {
             "en": "{control} of the camera changed from {before} to {now} while views were taken",
             "de": "{control} der Kamera änderte sich von {before} auf {now}, während Ansichten aufgenommen "
             "wurden",
@@ -282,6 +306,342 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "{skip_phrase}, the maximum is {max_images}",
             "de": "{skip_phrase}, höchstens {max_images}",
+        },
+    ),
+    "BOARD_NOT_FOUND": (
+        {
+            "en": "the board was not found in {image}: {board_problem}",
+            "de": "die Tafel wurde in {image} nicht gefunden: {board_problem}",
+        },
+        {
+            "en": "the board was not found in the image: {board_problem}",
+            "de": "die Tafel wurde im Bild nicht gefunden: {board_problem}",
+        },
+    ),
+    "TOO_FEW_VIEWS": (
+        {
+            "en": "{usable} of {views} views of the board can be used, at least {needed} are "
+            "needed{fault_hint}",
+            "de": "{usable} von {views} Ansichten der Tafel sind verwendbar, nötig mindestens "
+            "{needed}{fault_hint}",
+        },
+    ),
+    "CALIBRATION_DIVERGED": (
+        {
+            "en": "no camera fits the {views} views: {divergence}",
+            "de": "keine Kamera passt zu den {views} Ansichten: {divergence}",
+        },
+    ),
+    "ACCURACY_PLANE_UNKNOWN": (
+        {
+            "en": "the plane of the displacements is not determined: {plane_problem}",
+            "de": "die Ebene der Verschiebungen ist nicht bestimmt: {plane_problem}",
+        },
+    ),
+    "ACCURACY_INVALID": (
+        {
+            "en": "points of shape {shape} were seen at pixels of shape {px_shape}, needed (n, 2) each",
+            "de": "Punkte der Form {shape} wurden an Pixeln der Form {px_shape} gesehen, nötig je (n, 2)",
+        },
+        {
+            "en": "a coordinate is not finite",
+            "de": "eine Koordinate ist nicht endlich",
+        },
+        {
+            "en": "a point at ({point_px[0]:.1f}, {point_px[1]:.1f}) px lies outside of the camera's image "
+            "of {size_wh_px[0]}x{size_wh_px[1]} px",
+            "de": "ein Punkt bei ({point_px[0]:.1f}, {point_px[1]:.1f}) px liegt außerhalb des Bildes der "
+            "Kamera von {size_wh_px[0]}x{size_wh_px[1]} px",
+        },
+    ),
+    "BOARD_INVALID": (
+        {
+            "en": "there is no such calibration board: {board_fault}",
+            "de": "eine solche Kalibriertafel gibt es nicht: {board_fault}",
+        },
+    ),
+    "IMAGE_INVALID": (
+        {
+            "en": "an image has shape {shape} and type {dtype}, needed (h, w) or (h, w, 3) of 8 bits, at "
+            "least 16 x 16",
+            "de": "ein Bild hat die Form {shape} und den Typ {dtype}, nötig (h, w) oder (h, w, 3) mit 8 "
+            "Bit, mindestens 16 x 16",
+        },
+        {
+            "en": "an image is {given}, needed an array uint8 (h, w) or (h, w, 3)",
+            "de": "ein Bild ist {given}, nötig ein Array uint8 (h, w) oder (h, w, 3)",
+        },
+        {
+            "en": "an image is {dtype} of shape {shape}, needed uint8 (h, w) or (h, w, 3)",
+            "de": "ein Bild ist {dtype} der Form {shape}, nötig uint8 (h, w) oder (h, w, 3)",
+        },
+        {
+            "en": "the image is {dtype} of shape {shape}, needed uint8 of {size_wh_px[1]} rows and "
+            "{size_wh_px[0]} columns, grey or BGR",
+            "de": "das Bild ist {dtype} der Form {shape}, nötig uint8 mit {size_wh_px[1]} Zeilen und "
+            "{size_wh_px[0]} Spalten, grau oder BGR",
+        },
+    ),
+    "VIEW_INVALID": (
+        {
+            "en": "a view of a board has {ids} ids, object points of shape {object_shape} and image points "
+            "of shape {image_shape}, needed (n,), (n, 3), (n, 2), finite, each id once",
+            "de": "eine Ansicht einer Tafel hat {ids} Kennungen, Objektpunkte der Form {object_shape} und "
+            "Bildpunkte der Form {image_shape}, nötig (n,), (n, 3), (n, 2), endlich, jede Kennung "
+            "einmal",
+        },
+    ),
+    "DISPLACEMENTS_INVALID": (
+        {
+            "en": "the displacements cannot be used: {displacement_problem}",
+            "de": "die Verschiebungen sind nicht verwendbar: {displacement_problem}",
+        },
+    ),
+    "CAMERA_MODEL_INVALID": (
+        {
+            "en": "the camera model cannot be used: {camera_problem}",
+            "de": "das Kameramodell ist nicht verwendbar: {camera_problem}",
+        },
+    ),
+    "CAMERA_FILE_INVALID": (
+        {
+            "en": "the camera file has a value that is no number: {library_error}",
+            "de": "die Kameradatei hat einen Wert, der keine Zahl ist: {library_error}",
+        },
+        {
+            "en": "the controls of a camera are {controls}, expected integers by name",
+            "de": "die controls einer Kamera sind {controls}, erwartet ganze Zahlen mit ihren Namen",
+        },
+        {
+            "en": "the readout of a camera is {readout_ms}, expected a number of ms from 0 to "
+            "{max_readout_ms:g}",
+            "de": "die Auslesezeit einer Kamera ist {readout_ms}, erwartet eine Zahl von 0 bis "
+            "{max_readout_ms:g} ms",
+        },
+        {
+            "en": "the camera file {file} is a {given}, expected keys with values",
+            "de": "die Kameradatei {file} ist ein {given}, erwartet Schlüssel mit Werten",
+        },
+    ),
+    "READOUT_TOO_SLOW": (
+        {
+            "en": "the board moved at {speed_px_s:.0f} px/s, needed {min_speed_px_s:.0f} px/s "
+            "({readout_estimate})",
+            "de": "die Tafel bewegte sich mit {speed_px_s:.0f} px/s, nötig {min_speed_px_s:.0f} px/s "
+            "({readout_estimate})",
+        },
+    ),
+    "READOUT_ONE_WAY": (
+        {
+            "en": "the board moved one way in {forth} images and back in {back}, needed {needed} of each",
+            "de": "die Tafel bewegte sich in {forth} Bildern hin und in {back} zurück, nötig je {needed}",
+        },
+    ),
+    "READOUT_UNOBSERVABLE": (
+        {
+            "en": "this motion does not determine the readout time: {readout_estimate}, allowed "
+            "{max_sd_ms:.1f} ms",
+            "de": "diese Bewegung bestimmt die Auslesezeit nicht: {readout_estimate}, erlaubt "
+            "{max_sd_ms:.1f} ms",
+        },
+    ),
+    "READOUT_IMPOSSIBLE": (
+        {
+            "en": "{readout_estimate}: it must be between 0 and the {period_ms:.1f} ms between images",
+            "de": "{readout_estimate}: sie muss zwischen 0 und den {period_ms:.1f} ms zwischen zwei "
+            "Bildern liegen",
+        },
+    ),
+    "RULER_INVALID": (
+        {
+            "en": "the ruler cannot be used: {ruler_problem}",
+            "de": "das Lineal ist nicht verwendbar: {ruler_problem}",
+        },
+    ),
+    "FOLDER_IMAGE_UNREADABLE": (
+        {
+            "en": "the image {file} cannot be used: {image_problem}",
+            "de": "das Bild {file} ist nicht verwendbar: {image_problem}",
+        },
+        {
+            "en": "{images} images cannot be used: {unusable_images}{more_images}",
+            "de": "{images} Bilder sind nicht verwendbar: {unusable_images}{more_images}",
+        },
+    ),
+    "FOLDER_WITHOUT_IMAGES": (
+        {
+            "en": "the folder {folder} has 0 images ({suffixes})",
+            "de": "der Ordner {folder} enthält 0 Bilder ({suffixes})",
+        },
+    ),
+    "SOURCE_NOT_FOUND": (
+        {
+            "en": "the folder {folder} cannot be listed: {system_error}",
+            "de": "der Ordner {folder} ist nicht lesbar: {system_error}",
+        },
+        {
+            "en": "the source {file} cannot be opened: {source_problem}",
+            "de": "die Quelle {file} lässt sich nicht öffnen: {source_problem}",
+        },
+    ),
+    "VIDEO_FILE_UNREADABLE": (
+        {
+            "en": "the source {file} cannot be opened: {source_problem}",
+            "de": "die Quelle {file} lässt sich nicht öffnen: {source_problem}",
+        },
+        {
+            "en": "{file} ({bytes} bytes) is not a usable video file: {video_problem}",
+            "de": "{file} ({bytes} Bytes) ist keine verwendbare Videodatei: {video_problem}",
+        },
+    ),
+    "CAMERA_MODE_NOT_GRANTED": (
+        {
+            "en": "the phone sends other images than requested: the settings request {requested}, "
+            "{granted} was granted",
+            "de": "das Telefon sendet andere Bilder als verlangt: die Einstellungen verlangen {requested}, "
+            "gewährt wurde {granted}",
+        },
+    ),
+    "PLUGIN_SOURCE_FAILED": (
+        {
+            "en": "the plug-in {plugin} {plugin_problem}: {library_error}",
+            "de": "das Plug-in {plugin} {plugin_problem}: {library_error}",
+        },
+    ),
+    "PLUGIN_NOT_INSTALLED": (
+        {
+            "en": "there is no plug-in {plugin} in {group}; installed: {installed}",
+            "de": "in {group} gibt es kein Plug-in {plugin}; installiert: {installed}",
+        },
+    ),
+    "PLUGIN_AMBIGUOUS": (
+        {
+            "en": "{count} packages have a plug-in {plugin} in {group}: {packages}",
+            "de": "{count} Pakete haben ein Plug-in {plugin} in {group}: {packages}",
+        },
+    ),
+    "PLUGIN_NOT_LOADED": (
+        {
+            "en": "the plug-in {plugin} cannot be imported: {library_error}",
+            "de": "das Plug-in {plugin} lässt sich nicht importieren: {library_error}",
+        },
+    ),
+    "STREAM_UNREACHABLE": (
+        {
+            "en": "the stream {stream} cannot be reached at {host}:{port}: {stream_problem}",
+            "de": "der Videostrom {stream} ist unter {host}:{port} nicht erreichbar: {stream_problem}",
+        },
+    ),
+    "LATENCY_CODE_NOT_READ": (
+        {
+            "en": "{code_count}, the minimum is {min_timed}",
+            "de": "{code_count}, mindestens {min_timed}",
+        },
+    ),
+    "OVERLAY_SIZE": (
+        {
+            "en": "the image has {image_wh_px[0]}x{image_wh_px[1]} px, but its snapshot is of "
+            "{size_wh_px[0]}x{size_wh_px[1]} px",
+            "de": "das Bild hat {image_wh_px[0]}x{image_wh_px[1]} px, sein Ergebnis ist aber von "
+            "{size_wh_px[0]}x{size_wh_px[1]} px",
+        },
+    ),
+    "IMAGE_NOT_ENCODED": (
+        {
+            "en": "an image of shape {shape} cannot be encoded as JPEG",
+            "de": "ein Bild der Form {shape} lässt sich nicht als JPEG kodieren",
+        },
+    ),
+    "BOARD_DOTS_UNPRINTABLE": (
+        {
+            "en": "dots of {widest_mm:g} mm at a distance of {nearest_mm:.3g} mm cannot be separated, "
+            "allowed: above 0 to {max_dot_mm:.3g} mm",
+            "de": "Punkte von {widest_mm:g} mm im Abstand von {nearest_mm:.3g} mm lassen sich nicht "
+            "trennen, erlaubt: über 0 bis {max_dot_mm:.3g} mm",
+        },
+    ),
+    "BOARD_TOO_LARGE": (
+        {
+            "en": "the board needs {needed_mm[0]:.1f} x {needed_mm[1]:.1f} mm with its white margin, but "
+            "{paper} has {free_mm[0]:.1f} x {free_mm[1]:.1f} mm in portrait orientation",
+            "de": "die Tafel braucht {needed_mm[0]:.1f} x {needed_mm[1]:.1f} mm mit ihrem weißen Rand, "
+            "{paper} hat im Hochformat aber {free_mm[0]:.1f} x {free_mm[1]:.1f} mm",
+        },
+    ),
+    "PAPER_UNKNOWN": (
+        {
+            "en": "the paper size '{paper}' is unknown",
+            "de": "das Papierformat „{paper}“ ist unbekannt",
+        },
+    ),
+    "MARKER_SIDE_UNPRINTABLE": (
+        {
+            "en": "a marker of {side_mm:g} mm cannot be printed on A4 with its white margin, allowed: "
+            "{min_side_mm:g} to {max_side_mm:g} mm",
+            "de": "ein Marker von {side_mm:g} mm lässt sich mit seinem weißen Rand nicht auf A4 drucken, "
+            "erlaubt: {min_side_mm:g} bis {max_side_mm:g} mm",
+        },
+    ),
+    "MARKER_IMAGE_INVALID": (
+        {
+            "en": "the image of marker '{name}' cannot be used: {marker_problem}",
+            "de": "das Bild des Markers „{name}“ ist nicht verwendbar: {marker_problem}",
+        },
+    ),
+    "SCORE_SETTING_INVALID": (
+        {
+            "en": "the tracker's setting {setting} is {value:g}, allowed 0 to 1",
+            "de": "die Einstellung {setting} des Trackers ist {value:g}, erlaubt 0 bis 1",
+        },
+    ),
+    "REHEARSAL_SETTING_INVALID": (
+        {
+            "en": "the rehearsal's {key} is {value}, allowed is {allowed_values}",
+            "de": "{key} des Probebetriebs ist {value}, erlaubt ist {allowed_values}",
+        },
+    ),
+    "SOURCE_STALLED": (
+        {
+            "en": "the source {source} is open, but sent no image for {limit_s:g} s",
+            "de": "{source} ist geöffnet, sendete aber {limit_s:g} s lang kein Bild",
+        },
+    ),
+    "CAMERA_NOT_TRIGGERED": (
+        {
+            "en": "{source} waits for a pulse on {trigger}, but received none for {limit_s:g} s",
+            "de": "{source} wartet auf einen Impuls an {trigger}, erhielt aber {limit_s:g} s lang keinen",
+        },
+    ),
+    "PHONE_IMAGE_BROKEN": (
+        {
+            "en": "an image of the phone is not a complete JPEG",
+            "de": "ein Bild des Telefons ist kein vollständiges JPEG",
+        },
+    ),
+    "PHONE_IMAGE_OLD": (
+        {
+            "en": "images of the phone arrive {age_s:.1f} s after their capture, limit {limit_s:g} s",
+            "de": "Bilder des Telefons kommen {age_s:.1f} s nach ihrer Aufnahme an, Grenze {limit_s:g} s",
+        },
+    ),
+    "PHONE_IMAGE_REPEATED": (
+        {
+            "en": "an image of the phone was captured no later than the one before it",
+            "de": "ein Bild des Telefons wurde nicht später aufgenommen als das vorige",
+        },
+    ),
+    "PHONE_IMAGE_SIZE": (
+        {
+            "en": "an image of the phone has {width_px}x{height_px} px, allowed are {min_side_px} to "
+            "{max_width_px}x{max_height_px}",
+            "de": "ein Bild des Telefons hat {width_px}x{height_px} px, erlaubt sind {min_side_px} bis "
+            "{max_width_px}x{max_height_px}",
+        },
+    ),
+    "PHONE_NOT_SELECTED": (
+        {
+            "en": "the image source of this server is {source}, not a phone",
+            "de": "die Bildquelle dieses Servers ist {source}, kein Telefon",
         },
     ),
 }

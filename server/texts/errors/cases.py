@@ -65,6 +65,10 @@ CASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "CT_FILE_DAMAGED": (
         {
+            "en": "the NIfTI file of {bytes} bytes is truncated or damaged: {nifti_problem}",
+            "de": "die NIfTI-Datei von {bytes} Bytes ist abgeschnitten oder beschädigt: {nifti_problem}",
+        },
+        {
             "en": "{damaged} of {files} files are truncated or damaged DICOM files",
             "de": "{damaged} von {files} Dateien sind abgeschnittene oder beschädigte DICOM-Dateien",
         },
@@ -222,6 +226,12 @@ CASES: Mapping[str, tuple[Text, ...]] = {
         },
     ),
     "CT_SLICES_SHIFTED": (
+        {
+            "en": "{gap_problem}: one lies {off_mm:.3f} mm from its regular position, allowed "
+            "{allowed_mm:.3f} mm",
+            "de": "{gap_problem}: eine liegt {off_mm:.3f} mm neben ihrem regelmäßigen Ort, erlaubt "
+            "{allowed_mm:.3f} mm",
+        },
         {
             "en": "two slices lie in one plane, {shift_mm:.2f} mm apart, allowed {max_shift_mm:.2f} mm",
             "de": "zwei Schichten liegen in einer Ebene, {shift_mm:.2f} mm auseinander, erlaubt "
@@ -392,6 +402,12 @@ CASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "CT_SPACING_UNEVEN": (
         {
+            "en": "{gap_problem}: one lies {off_mm:.3f} mm from its regular position, allowed "
+            "{allowed_mm:.3f} mm",
+            "de": "{gap_problem}: eine liegt {off_mm:.3f} mm neben ihrem regelmäßigen Ort, erlaubt "
+            "{allowed_mm:.3f} mm",
+        },
+        {
             "en": "the slices lie between {min_mm:.3f} and {max_mm:.3f} mm apart, mostly {spacing_mm:.3f} "
             "mm: after slice {after} of {slices}, in the order of their positions, the next is "
             "{gap_mm:.3f} mm away",
@@ -442,6 +458,136 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "{newest}",
             "de": "die Datenbank in {folder} hat das Schema {found}, dieses Programm unterstützt die "
             "Schemas {first} bis {newest}",
+        },
+    ),
+    "CT_EMPTY": (
+        {
+            "en": "there are no files to read{excluded_hint}",
+            "de": "es gibt keine lesbaren Dateien{excluded_hint}",
+        },
+    ),
+    "CT_NO_DICOM": (
+        {
+            "en": "no DICOM slice among {files} files: {excluded_files}",
+            "de": "keine DICOM-Schicht unter {files} Dateien: {excluded_files}",
+        },
+    ),
+    "CT_DOCUMENT_INVALID": (
+        {
+            "en": "{title} cannot be used: {document_problem}",
+            "de": "{title} ist nicht verwendbar: {document_problem}",
+        },
+    ),
+    "MESH_UNREADABLE": (
+        {
+            "en": "the mesh is not a readable {format_name} file: {mesh_problem}",
+            "de": "das Netz ist keine lesbare {format_name}-Datei: {mesh_problem}",
+        },
+        {
+            "en": "the mesh is not a readable {format_name} file: {library_error}",
+            "de": "das Netz ist keine lesbare {format_name}-Datei: {library_error}",
+        },
+        {
+            "en": "the mesh cannot be read: {system_error}",
+            "de": "das Netz ist nicht lesbar: {system_error}",
+        },
+    ),
+    "MESH_INVALID": (
+        {
+            "en": "the mesh cannot be used: {mesh_problem}",
+            "de": "das Netz ist nicht verwendbar: {mesh_problem}",
+        },
+    ),
+    "MESH_SIZE_IMPLAUSIBLE": (
+        {
+            "en": "the mesh is {sides} in its own units, which in {tried_unit} is neither a vertebra nor "
+            "several",
+            "de": "das Netz misst {sides} in seinen eigenen Einheiten, das ist in {tried_unit} weder ein "
+            "Wirbel noch mehrere",
+        },
+    ),
+    "MESH_UNIT_NEEDED": (
+        {
+            "en": "the mesh is {sides} in its own units, which in {tried_unit} is neither a vertebra nor "
+            "several",
+            "de": "das Netz misst {sides} in seinen eigenen Einheiten, das ist in {tried_unit} weder ein "
+            "Wirbel noch mehrere",
+        },
+    ),
+    "SURFACE_INVALID": (
+        {
+            "en": "the surface cannot be used: {mesh_problem}",
+            "de": "die Oberfläche ist nicht verwendbar: {mesh_problem}",
+        },
+    ),
+    "VOLUME_INVALID": (
+        {
+            "en": "the CT cannot be used: {volume_problem}",
+            "de": "das CT ist nicht verwendbar: {volume_problem}",
+        },
+    ),
+    "BONE_SETTINGS_INVALID": (
+        {
+            "en": "the bone surface cannot be extracted: {bone_problem}",
+            "de": "die Knochenoberfläche lässt sich nicht gewinnen: {bone_problem}",
+        },
+    ),
+    "PLAN_INVALID": (
+        {
+            "en": "the plan cannot be read: {where} {plan_fault}",
+            "de": "der Plan ist nicht lesbar: {where} {plan_fault}",
+        },
+        {
+            "en": "the plan cannot be used: {plan_place} {plan_fault}",
+            "de": "der Plan ist nicht verwendbar: {plan_place} {plan_fault}",
+        },
+    ),
+    "NAME_INVALID": (
+        {
+            "en": "the {name_of} {name_problem}, allowed are 1 to {allowed} characters on one line",
+            "de": "{name_of} {name_problem}, erlaubt sind 1 bis {allowed} Zeichen auf einer Zeile",
+        },
+    ),
+    "CONTENT_NOT_JSON": (
+        {
+            "en": "the document cannot be stored as JSON: {json_place}{json_problem}",
+            "de": "das Dokument lässt sich nicht als JSON speichern: {json_place}{json_problem}",
+        },
+    ),
+    "ARCHIVE_INVALID": (
+        {
+            "en": "the archive cannot be imported: {archive_problem}",
+            "de": "das Archiv lässt sich nicht importieren: {archive_problem}",
+        },
+    ),
+    "SCAN_FAILED": (
+        {
+            "en": "the CT of the rehearsal's vertebra could not be simulated: {scan_problem}",
+            "de": "das CT des Wirbels für den Probebetrieb ließ sich nicht simulieren: {scan_problem}",
+        },
+    ),
+    "MARKUPS_UNREADABLE": (
+        {
+            "en": "{file} is not a file of markups: {markup_problem}",
+            "de": "{file} ist keine Markups-Datei: {markup_problem}",
+        },
+    ),
+    "MARKUPS_INVALID": (
+        {
+            "en": "{file} cannot be used: {markup_problem}",
+            "de": "{file} ist nicht verwendbar: {markup_problem}",
+        },
+    ),
+    "TRANSFORM_UNREADABLE": (
+        {
+            "en": "{file} is not a readable transform: {transform_problem}",
+            "de": "{file} ist keine lesbare Transformation: {transform_problem}",
+        },
+    ),
+    "TRANSFORM_INVALID": (
+        {
+            "en": "{file} cannot be used: {transform_problem}",
+            "de": "{file} ist nicht verwendbar: {transform_problem}",
         },
     ),
 }

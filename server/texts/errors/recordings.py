@@ -165,4 +165,10 @@ RECORDINGS: Mapping[str, tuple[Text, ...]] = {
             "de": "{file} ist nicht als Aufnahme lesbar: {read_problem}",
         },
     ),
+    "VIDEO_ENCODER_MISSING": (
+        {
+            "en": "videos cannot be written: {encoder_problem}",
+            "de": "Videos lassen sich nicht schreiben: {encoder_problem}",
+        },
+    ),
 }

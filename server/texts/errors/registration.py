@@ -19,14 +19,6 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
             "de": "die Kamera ist nicht kalibriert, daher können keine Lagen in mm gemessen werden",
         },
     ),
-    "CAPTURE_INTERRUPTED": (
-        {
-            "en": "{gap_s:.2f} s passed between two of {images} images, allowed {allowed_s:.2f} s at "
-            "{rate_hz:.1f} images/s: the tip could have moved in between",
-            "de": "zwischen zwei von {images} Bildern vergingen {gap_s:.2f} s, erlaubt {allowed_s:.2f} s "
-            "bei {rate_hz:.1f} Bildern/s: die Spitze kann sich dazwischen bewegt haben",
-        },
-    ),
     "CAPTURE_MOVED": (
         {
             "en": "the tip moved: it spreads by {spread_mm:.2f} mm (standard deviation, allowed "
@@ -35,39 +27,11 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
             "{allowed_mm:g}) und um höchstens {max_off_mm:.2f} mm (erlaubt {allowed_off_mm:g})",
         },
     ),
-    "CAPTURE_RATE_TOO_LOW": (
-        {
-            "en": "{needed} images take {hold_s:.1f} s at {rate_hz:.1f} images/s, allowed {max_s:g} s",
-            "de": "{needed} Bilder brauchen {hold_s:.1f} s bei {rate_hz:.1f} Bildern/s, erlaubt {max_s:g} s",
-        },
-    ),
-    "CAPTURE_TOO_SHORT": (
-        {
-            "en": "there are {images} images over {lasted_s:.2f} s, needed {needed} over {min_s:g} s",
-            "de": "es gibt {images} Bilder in {lasted_s:.2f} s, nötig {needed} in {min_s:g} s",
-        },
-        {
-            "en": "there are {images} images over {lasted_s:.2f} s at {rate_hz:.1f} images/s, needed "
-            "{needed} over {min_s:g} s",
-            "de": "es gibt {images} Bilder in {lasted_s:.2f} s bei {rate_hz:.1f} Bildern/s, nötig {needed} "
-            "in {min_s:g} s",
-        },
-    ),
     "CAPTURE_UNCERTAIN": (
         {
             "en": "the tip's uncertainty is {tip_sd_mm:.1f} mm in the worst image, allowed {allowed_mm:g} mm",
             "de": "die Unsicherheit der Spitze ist im schlechtesten Bild {tip_sd_mm:.1f} mm, erlaubt "
             "{allowed_mm:g} mm",
-        },
-    ),
-    "CHECK_NOT_CAPTURED": (
-        {
-            "en": "the tip was seen in {images} images, needed {needed}",
-            "de": "die Spitze war in {images} Bildern zu sehen, nötig {needed}",
-        },
-        {
-            "en": "the tip was seen in {images} images at {rate_hz:.1f} images/s, needed {needed}",
-            "de": "die Spitze war in {images} Bildern bei {rate_hz:.1f} Bildern/s zu sehen, nötig {needed}",
         },
     ),
     "LANDMARKS_TOO_FEW": (
@@ -450,6 +414,56 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
             "en": "the swept points have shape {shape}, needed (n, 3), or a number is not finite",
             "de": "die abgefahrenen Punkte haben die Form {shape}, nötig (n, 3), oder eine Zahl ist nicht "
             "endlich",
+        },
+    ),
+    "CAPTURE_UNSEEN": (
+        {
+            "en": "the tip was known in {seen} of {images} images{at_rate} and not in {unseen} "
+            "({unseen_reason}), needed in all",
+            "de": "die Spitze war in {seen} von {images} Bildern{at_rate} bekannt und in {unseen} nicht "
+            "({unseen_reason}), nötig in allen",
+        },
+    ),
+    "CAPTURE_INTERRUPTED": (
+        {
+            "en": "{gap_s:.2f} s passed between two of {images} images, allowed {allowed_s:.2f} s at "
+            "{rate_text}: the tip could have moved in between",
+            "de": "zwischen zwei von {images} Bildern vergingen {gap_s:.2f} s, erlaubt {allowed_s:.2f} s "
+            "bei {rate_text}: die Spitze kann sich dazwischen bewegt haben",
+        },
+    ),
+    "CAPTURE_RATE_TOO_LOW": (
+        {
+            "en": "{needed} images take {hold_s:.1f} s at {rate_text}, allowed {max_s:g} s",
+            "de": "{needed} Bilder brauchen {hold_s:.1f} s bei {rate_text}, erlaubt {max_s:g} s",
+        },
+    ),
+    "CAPTURE_TOO_SHORT": (
+        {
+            "en": "there are {images} images over {lasted_s:.2f} s{at_rate}{order}, needed {needed} over "
+            "{min_s:g} s",
+            "de": "es gibt {images} Bilder in {lasted_s:.2f} s{at_rate}{order}, nötig {needed} in "
+            "{min_s:g} s",
+        },
+    ),
+    "CHECK_NOT_CAPTURED": (
+        {
+            "en": "the tip was seen in {images} images{at_rate}, needed {needed}",
+            "de": "die Spitze war in {images} Bildern{at_rate} zu sehen, nötig {needed}",
+        },
+    ),
+    "NEEDLES_DISAGREE": (
+        {
+            "en": "needles, ruler and touched points disagree: chi squared is {chi2:.0f}, allowed "
+            "{allowed_chi2:.0f}; worst is {worst_observation}",
+            "de": "Nadeln, Lineal und angetastete Punkte widersprechen sich: Chi-Quadrat ist {chi2:.0f}, "
+            "erlaubt {allowed_chi2:.0f}; am schlechtesten passt {worst_observation}",
+        },
+    ),
+    "REGISTRATION_DOCUMENT_INVALID": (
+        {
+            "en": "{title} cannot be read: {document_problem}",
+            "de": "{title} ist nicht lesbar: {document_problem}",
         },
     ),
 }

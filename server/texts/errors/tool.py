@@ -249,4 +249,93 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
             "{min_contrast_grey}",
         },
     ),
+    "TOOL_AXIS_UNKNOWN": (
+        {
+            "en": "the axis of '{tool}' is {axis_place}, expected in one place",
+            "de": "die Achse von „{tool}“ ist {axis_place}, erwartet an einem Ort",
+        },
+    ),
+    "TOOL_FILE_INVALID": (
+        {
+            "en": "the tool file {file} cannot be used: {library_error}",
+            "de": "die Instrumentdatei {file} ist nicht verwendbar: {library_error}",
+        },
+    ),
+    "ROTATION_INVALID": (
+        {
+            "en": "a pose is not a rigid motion: its rotation deviates from orthonormal by "
+            "{off_orthonormal:.3g}, allowed {allowed:g}, and all numbers must be finite",
+            "de": "eine Lage ist keine starre Bewegung: ihre Drehung weicht um {off_orthonormal:.3g} von "
+            "orthonormal ab, erlaubt {allowed:g}, und alle Zahlen müssen endlich sein",
+        },
+    ),
+    "TIME_OFFSET_NEEDS_ROTATIONS": (
+        {
+            "en": "sources with positions only: {names}",
+            "de": "Quellen, die nur Orte enthalten: {names}",
+        },
+    ),
+    "TIME_OFFSET_OVERLAP_SHORT": (
+        {
+            "en": "both sources saw the tool for {overlap_s:.1f} s at an offset within {max_offset_s:g} s, "
+            "needed {min_overlap_s:g} s ({spans})",
+            "de": "beide Quellen sahen das Instrument {overlap_s:.1f} s lang bei einem Versatz bis "
+            "{max_offset_s:g} s, nötig {min_overlap_s:g} s ({spans})",
+        },
+    ),
+    "TIME_OFFSET_NO_MOTION": (
+        {
+            "en": "in {source} the tool has a {motion} of {rate:.1f} {rate_unit} (RMS), needed {needed:g} "
+            "{rate_unit}",
+            "de": "in {source} hat das Instrument eine {motion} von {rate:.1f} {rate_unit} (RMS), nötig "
+            "{needed:g} {rate_unit}",
+        },
+    ),
+    "TIME_OFFSET_MOTION_UNIFORM": (
+        {
+            "en": "in {source} the {motion} of {rate:.1f} {rate_unit} varies by {variation:.1f} "
+            "{rate_unit} (RMS), needed {needed:g} {rate_unit}: a constant velocity does not "
+            "determine the offset",
+            "de": "in {source} schwankt die {motion} von {rate:.1f} {rate_unit} um {variation:.1f} "
+            "{rate_unit} (RMS), nötig {needed:g} {rate_unit}: eine konstante Geschwindigkeit "
+            "bestimmt den Versatz nicht",
+        },
+    ),
+    "TIME_OFFSET_AMBIGUOUS": (
+        {
+            "en": "an offset of {second_offset_s:+.2f} s has {second_peak_ratio:.2f} of the correlation at "
+            "{offset_s:+.2f} s, allowed {max_second_peak_ratio:g}: the motion repeats itself",
+            "de": "ein Versatz von {second_offset_s:+.2f} s hat das {second_peak_ratio:.2f}-Fache der "
+            "Korrelation bei {offset_s:+.2f} s, erlaubt {max_second_peak_ratio:g}: die Bewegung "
+            "wiederholt sich",
+        },
+    ),
+    "TIME_OFFSET_UNCERTAIN": (
+        {
+            "en": "the offset of {offset_ms:+.1f} ms has a standard deviation of {sd_ms:.1f} ms, allowed "
+            "{max_sd_ms:g} ms",
+            "de": "der Versatz von {offset_ms:+.1f} ms hat eine Standardabweichung von {sd_ms:.1f} ms, "
+            "erlaubt {max_sd_ms:g} ms",
+        },
+    ),
+    "TIME_SERIES_INVALID": (
+        {
+            "en": "{source}: {series_problem}",
+            "de": "{source}: {series_problem}",
+        },
+    ),
+    "POSE_MATRIX_INVALID": (
+        {
+            "en": "a pose is not a rigid motion: {pose_problem}",
+            "de": "eine Lage ist keine starre Bewegung: {pose_problem}",
+        },
+    ),
+    "POSE_UNIT_SUSPECT": (
+        {
+            "en": "in {near_poses} poses the marker is nearer than {min_distance_mm:g} mm to the camera "
+            "(median {median_distance_mm:.3g} mm), which is impossible; these seem to be metres",
+            "de": "in {near_poses} Lagen ist der Marker näher als {min_distance_mm:g} mm an der Kamera "
+            "(Median {median_distance_mm:.3g} mm), das ist unmöglich; es sind offenbar Meter",
+        },
+    ),
 }

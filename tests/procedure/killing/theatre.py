@@ -6,7 +6,12 @@ from typing import Any
 import numpy as np
 
 from server.config import Config
-from server.procedure.registration_record import CheckRecord, RegistrationRecord, check_name
+from server.procedure.registration_record import (
+    CheckRecord,
+    RegistrationEvidence,
+    RegistrationRecord,
+    check_name,
+)
 from server.store import CaseStore, DocumentKind, Home
 from server.theatre import theatre_from_config
 from tests.procedure.real_server import BUSY_MACHINE
@@ -102,12 +107,10 @@ def _registration(theatre: Theatre) -> dict[str, Any]:
     )
     return RegistrationRecord.of(
         registration,
+        RegistrationEvidence(from_s=0.0),
         vertebra=VERTEBRA,
         reference=theatre.reference.name if theatre.reference is not None else "",
         run=EARLIER,
-        numbers={},
-        made_from={},
-        from_s=0.0,
     ).model_dump(mode="json")
 
 

@@ -14,7 +14,7 @@ from server.loop.rehearsal_control import RehearsalControl
 from server.loop.shared_status import SharedStatus
 from server.loop.staging import SceneOrder, Staging
 from server.loop.supervisor import Supervisor
-from server.loop.worker import LatestCase, LatestRequest, LatestScene, WorkerOrder, _listen
+from server.loop.worker import ReceivedOrders, WorkerOrder, _listen
 from server.setup import CaseSetup, build_setup
 from server.theatre import theatre_from_config
 from tests.server.loop.fake_workers import steady_worker
@@ -78,15 +78,15 @@ def test_scenes_and_cases_arrive_where_they_belong(monkeypatch: pytest.MonkeyPat
     heard: Connection
     reported: Connection
     heard, reported = Pipe(duplex=False)
-    cases, scenes, stop = LatestCase(), LatestScene(), threading.Event()
+    received, stop = ReceivedOrders(), threading.Event()
     monkeypatch.setattr("server.loop.worker.os._exit", lambda _status: None)
     monkeypatch.setattr("server.loop.worker.STOP_GRACE_S", 0.0)
     reported.send(CaseSetup())
     reported.send(SceneOrder(number=5, rehearsal=SMALL))
     reported.close()
-    _listen(heard, cases, scenes, LatestRequest(), stop)
-    scene = scenes.take()
-    assert cases.take() == CaseSetup()
+    _listen(heard, received, stop)
+    scene = received.scenes.take()
+    assert received.cases.take() == CaseSetup()
     assert scene is not None
     assert scene.number == 5
     assert stop.is_set()

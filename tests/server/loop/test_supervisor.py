@@ -18,6 +18,7 @@ from server.loop.shared_status import SharedStatus
 from server.loop.supervisor import Supervisor, Target, WatchdogSettings
 from server.loop.worker import WorkerOrder
 from server.setup import CaseSetup, nominal_camera
+from server.stream.messages import process_message
 from tests.server.loop.fake_workers import (
     Seen,
     echoing_worker,
@@ -126,7 +127,11 @@ def test_a_killed_process_is_reported_at_once_and_replaced(
     assert dead.image is None
     assert dead.process.problem is not None
     assert dead.process.problem.message == "the tracking process ended"
-    assert dead.process.problem.context == {"pid": pid, "how": "by signal 9 (SIGKILL)"}
+    assert dead.process.problem.context == {
+        "process_problem": "ended",
+        "pid": pid,
+        "how": "by signal 9 (SIGKILL)",
+    }
     again = stage.hub.until(shows_image, after=dead.sequence)
     assert again.process.restarts == 1
     assert again.process.problem is None
@@ -225,6 +230,13 @@ def test_a_process_that_always_fails_is_given_up_and_tried_again_later(
     assert "2 times in 60 s" in problem.message
     assert problem.message.endswith("the last time: the tracking process ended")
     assert problem.remedy
+    shown = process_message(given_up.process).problem
+    assert shown is not None
+    assert shown.message.de == (
+        "der Tracking-Prozess wurde 2-mal in 60 s neu gestartet und endete wieder; "
+        "zuletzt: der Tracking-Prozess endete"
+    )
+    assert shown.remedy.de.startswith("Den Grund im Protokoll des Servers suchen.")
     stage.now_s = 60.0
     later = stage.hub.until(lambda instant: instant.process.restarts > 2, after=given_up.sequence)
     assert later.snapshot is None

@@ -19,7 +19,7 @@ from server.logs import LogSettings
 from server.loop.report import Report, ReportUnpacker
 from server.loop.ring import ImageRing
 from server.loop.tracking import Tracking
-from server.loop.worker import LatestCase, WorkerLink, WorkerOrder, work
+from server.loop.worker import ReceivedOrders, WorkerLink, WorkerOrder, work
 from server.setup import CaseSetup, Preparation, build_setup, nominal_camera
 from tests.server.capture.fake_camera import FakeCamera, FakeDevices, FakeVideo, modes
 from tests.server.capture.fake_industrial import FakeIndustrialCamera, FakeIndustrialCameras
@@ -137,7 +137,7 @@ def run_to_the_end(link: tuple[WorkerLink, SpyRing], tracker: Tracker) -> list[R
     thread = threading.Thread(
         target=work,
         args=(ORDER, link[0], stop, Counting(), Tracking(Prepared(tracker))),
-        kwargs={"newest": LatestCase()},
+        kwargs={"received": ReceivedOrders()},
     )
     thread.start()
     assert link[1].ended.wait(30)
@@ -174,7 +174,7 @@ def test_a_fault_in_the_tracker_ends_the_loop_and_is_not_swallowed(
 ) -> None:
     tracking = Tracking(Prepared(Failing(11, ZeroDivisionError("a bug"))))
     with pytest.raises(ZeroDivisionError):
-        work(ORDER, link[0], threading.Event(), Counting(), tracking, newest=LatestCase())
+        work(ORDER, link[0], threading.Event(), Counting(), tracking, received=ReceivedOrders())
 
 
 def test_a_case_that_is_opened_sets_its_camera_to_its_calibration_and_tracking_learns_which_camera_it_is(
@@ -185,12 +185,12 @@ def test_a_case_that_is_opened_sets_its_camera_to_its_calibration_and_tracking_l
     source = LocalCameraSource(
         source_from_text("0"), devices=FakeDevices(video.camera), open_video=video, clock=video.clock
     )
-    newest, stop = LatestCase(), threading.Event()
+    received, stop = ReceivedOrders(), threading.Event()
     controls = {CameraControl.FOCUS: 45, CameraControl.AUTOFOCUS: 0}
-    newest.put(CaseSetup(camera=nominal_camera(SIZE), camera_controls=controls))
+    received.put(CaseSetup(camera=nominal_camera(SIZE), camera_controls=controls))
     tracking = Tracking(build_setup(Config(camera=CameraConfig(source="0"))))
     thread = threading.Thread(
-        target=work, args=(ORDER, link[0], stop, source, tracking), kwargs={"newest": newest}
+        target=work, args=(ORDER, link[0], stop, source, tracking), kwargs={"received": received}
     )
     thread.start()
     deadline_s = time.monotonic() + 30.0
@@ -215,11 +215,11 @@ def test_a_case_that_is_opened_moves_the_cut_out_of_an_industrial_camera(
         wanted=WantedMode(size_wh_px=SIZE),
         clock=camera.clock,
     )
-    newest = LatestCase()
-    newest.put(CaseSetup(camera=nominal_camera(SIZE), camera_controls={CameraControl.PAN: 96}))
+    received = ReceivedOrders()
+    received.put(CaseSetup(camera=nominal_camera(SIZE), camera_controls={CameraControl.PAN: 96}))
     tracking = Tracking(build_setup(Config(camera=CameraConfig(source="basler:4711"))))
     thread = threading.Thread(
-        target=work, args=(ORDER, link[0], stop, source, tracking), kwargs={"newest": newest}
+        target=work, args=(ORDER, link[0], stop, source, tracking), kwargs={"received": received}
     )
     thread.start()
     deadline_s = time.monotonic() + 30.0

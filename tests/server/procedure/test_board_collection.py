@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from server.live import CameraStatus, ImageClock, Instant, LiveHub, Problem, SourceState, SourceStatus
-from server.procedure.board_collection import BoardCollection
+from server.procedure.board_collection import MESSAGES, BoardCollection
+from server.texts import phrase_text
 from tracker.camera import Board, CameraControl
 from tracker.errors import InvalidInput
 from tracker.navigation import NavigationSnapshot
@@ -160,3 +161,20 @@ def test_there_is_an_end_to_how_many_are_kept(camera: Camera, monkeypatch: pytes
         camera.collection.add(images()[0], name=str(index))
     with pytest.raises(InvalidInput, match="2 views have been taken"):
         camera.collection.add(images()[0], name="one more")
+
+
+@pytest.mark.parametrize("english", MESSAGES.values())
+def test_each_result_of_an_image_has_german(english: str) -> None:
+    assert phrase_text("collection_message", english)["de"] != english
+
+
+def test_advice_for_further_views_is_german() -> None:
+    advice = "Tilt the board by 20 degrees or more, its left edge away from you (7 so far)."
+    assert phrase_text("view_advice", advice)["de"] == (
+        "Die Tafel um 20° oder mehr neigen, die linke Kante von der Person weg (bisher 7°)."
+    )
+    corners = "Hold the board into the top left, bottom right of the image."
+    assert phrase_text("view_advice", corners)["de"] == (
+        "Die Tafel in diese Ecken des Bildes halten: oben links, unten rechts."
+    )
+    assert phrase_text("view_advice", "Sing.") == {"en": "Sing.", "de": "Sing."}

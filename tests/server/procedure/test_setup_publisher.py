@@ -15,8 +15,8 @@ from server.procedure.camera import MAIN_CAMERA
 from server.procedure.drill_reference import DrillReferenceBuilder
 from server.procedure.markers import MarkerStep
 from server.procedure.plan import ACTIVE_CHANNEL
-from server.procedure.registration_record import RegistrationRecord
-from server.procedure.setup_publisher import SetupPublisher
+from server.procedure.registration_record import RegistrationEvidence, RegistrationRecord
+from server.procedure.setup_publisher import SetupPublisher, TrackingLink
 from server.procedure.state import Procedure, SetupDefaults
 from server.setup import CaseSetup
 from server.store import CaseStore, Document, DocumentKind, Home
@@ -59,13 +59,12 @@ class Published:
         defaults = SetupDefaults(source="camera 0", max_rms_px=1.0)
         publisher = SetupPublisher(
             store,
-            self.setups.append,
+            TrackingLink(publish_setup=self.setups.append, publish_facts=self.facts.append),
             procedure=Procedure(store, defaults=defaults, gate=RegistrationConfig(), run=RUN),
             # The cases have no bone surface, so that no job starts.
             drill_references=DrillReferenceBuilder(store=store, jobs=cast("Jobs", None)),
             defaults=defaults,
             markers=MarkerStep(store=store, defaults=()),
-            publish_facts=self.facts.append,
         )
         store.add_commit_listener(publisher.refresh)
         self.refresh = publisher.refresh
@@ -143,7 +142,7 @@ def test_a_channel_is_published_with_its_ct_until_the_ct_is_replaced(published: 
 def test_a_registration_is_published_without_numbers_until_it_is_checked(published: Published) -> None:
     published.put_plan()
     record = RegistrationRecord.of(
-        REGISTRATION, vertebra="L3", reference="", run=RUN, numbers={}, made_from={}, from_s=12.5
+        REGISTRATION, RegistrationEvidence(from_s=12.5), vertebra="L3", reference="", run=RUN
     )
     document = published.put(DocumentKind.REGISTRATION, "L3", record.model_dump(mode="json"))
     assert published.newest.registration is not None

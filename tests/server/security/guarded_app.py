@@ -16,7 +16,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.logs import LogSettings
-from server.procedure import Steps
+from server.procedure import Steps, TrackingLink
 from server.security import AuditLog, PeopleService, Role
 from server.security.people.service import NewInvitation
 from server.store import CaseStore, Home
@@ -87,7 +87,12 @@ def guarded(
             people = people_of(folder / "security", clock, required=required)
             store.set_change_listener(people.audit.record_change)
             steps = Steps.of(
-                hub=hub, store=store, jobs=jobs, config=config, markers=(), publish_setup=lambda _: None
+                hub=hub,
+                store=store,
+                jobs=jobs,
+                config=config,
+                markers=(),
+                tracking=TrackingLink(publish_setup=lambda _: None),
             )
             parts = AppParts(
                 hub=hub,

@@ -7,6 +7,10 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+# Fields of `Problem`, which are given by name.
+PROBLEM = ("code", "message", "remedy")
+# Only a terminal shows their errors, which are in English.
+ENGLISH = ("server/cli/", "server/config_file.py", "server/pose_file/", "server/security/tls/selection.py")
 ROOT = Path(__file__).resolve().parents[3]
 CODE = re.compile(r"[A-Z][A-Z0-9]*(_[A-Z0-9]+)+")
 # Names of values are left out: a template in the catalogue names what an f-string computes.
@@ -29,12 +33,12 @@ class ErrorSite:
 
 @cache
 def error_sites() -> tuple[ErrorSite, ...]:
-    """Return all places in tracker and server at which an error with a literal code is made.
+    """Return all places in tracker and server at which an error or problem with a literal code is made.
 
-    Errors of the command line are left out: no page shows them, and it is in English.
+    Errors of the command line and of a start that fails are left out, and warnings of a calibration's report.
     """
     paths = [path for folder in ("server", "tracker") for path in sorted((ROOT / folder).rglob("*.py"))]
-    shown = [path for path in paths if "cli" not in path.relative_to(ROOT).parts]
+    shown = [path for path in paths if not str(path.relative_to(ROOT)).startswith(ENGLISH)]
     return tuple(site for path in shown for site in _sites_in(path))
 
 
@@ -48,14 +52,21 @@ def _sites_in(path: Path) -> Iterator[ErrorSite]:
         if isinstance(target, ast.Name)
     }
     for node in ast.walk(tree):
-        if not isinstance(node, ast.Call) or len(node.args) < 3:
+        if not isinstance(node, ast.Call) or ast.unparse(node.func) == "warn":
             continue
-        code, message, remedy = node.args[:3]
-        if isinstance(code, ast.Constant) and isinstance(code.value, str) and CODE.fullmatch(code.value):
-            where = f"{path.relative_to(ROOT)}:{node.lineno}"
-            yield ErrorSite(
-                where, code.value, _shape(message, constants), _shape(remedy, constants), _names(node)
-            )
+        if len(node.args) >= 3:
+            given, message, remedy = node.args[:3]
+        elif ast.unparse(node.func) == "Problem":
+            named = {one.arg: one.value for one in node.keywords}
+            given, message, remedy = (named.get(part) for part in PROBLEM)
+        else:
+            continue
+        for code in [given.body, given.orelse] if isinstance(given, ast.IfExp) else [given]:
+            if isinstance(code, ast.Constant) and isinstance(code.value, str) and CODE.fullmatch(code.value):
+                where = f"{path.relative_to(ROOT)}:{node.lineno}"
+                yield ErrorSite(
+                    where, code.value, _shape(message, constants), _shape(remedy, constants), _names(node)
+                )
 
 
 def _names(call: ast.Call) -> frozenset[str] | None:
@@ -73,7 +84,7 @@ def shape_of(template: str) -> str:
     return FIELD.sub(r"{\1}", template)
 
 
-def _shape(node: ast.expr, constants: dict[str, ast.expr]) -> str | None:
+def _shape(node: ast.expr | None, constants: dict[str, ast.expr]) -> str | None:
     if isinstance(node, ast.Name):
         node = constants.get(node.id, node)
     if isinstance(node, ast.Constant):

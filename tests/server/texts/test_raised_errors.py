@@ -5,7 +5,11 @@ import numpy.typing as npt
 import pytest
 
 from server.texts import reason_of_error
-from tracker.errors import NavigationError
+from tracker.camera import DotBoard
+from tracker.camera.calibration import calibrate
+from tracker.camera.detection import BoardNotFound, BoardView, find_board
+from tracker.errors import CalibrationError, InvalidInput, NavigationError
+from tracker.registration.capture import TipSample, UnseenSample, captured
 from tracker.registration.points import PointGate, PointPairs, register_points
 
 FIXED = np.array([[0.0, 0, 0], [40, 3, 0], [5, 30, 8], [22, 18, 35], [-12, 25, 20]])
@@ -74,3 +78,55 @@ def test_an_error_with_a_phrase_that_is_not_listed_stays_english() -> None:
     why = reason_of_error(odd)
     assert not why.is_translated
     assert why.message["de"] == message
+
+
+def test_a_board_that_is_not_found_has_its_reason_in_german() -> None:
+    found = find_board(np.full((480, 640), 128, np.uint8), DotBoard(columns=5, rows=4, pitch_mm=10.0))
+    assert isinstance(found, BoardNotFound)
+    error = InvalidInput(
+        "BOARD_NOT_FOUND",
+        f"the board was not found in the image: {found.sentence}",
+        "Hold the whole board still and in focus, and try again.",
+        {"reason": found.reason.value, "board_problem": found.sentence},
+    )
+    assert reason_of_error(error).message["de"] == (
+        "die Tafel wurde im Bild nicht gefunden: keine Punkte, die ein Raster bilden"
+    )
+
+
+def test_too_few_views_are_german_with_the_fault_of_the_first() -> None:
+    board = DotBoard(columns=5, rows=4, pitch_mm=10.0)
+    points = board.object_points_mm[:5]
+    view = BoardView(ids=np.arange(5), object_points_mm=points, image_points_px=points[:, :2] + 100.0)
+    with pytest.raises(CalibrationError) as raised_error:
+        calibrate([view], size_wh_px=(640, 480))
+    assert reason_of_error(raised_error.value).message["de"] == (
+        "0 von 1 Ansichten der Tafel sind verwendbar, nötig mindestens 3 (die erste unbrauchbare: 5 Punkte, "
+        "nötig mindestens 6)"
+    )
+
+
+def test_a_capture_of_few_images_is_german_with_rate_reason_and_remedy() -> None:
+    # A fast camera, of which every tenth image is tracked.
+    times_s = [2.0 * number for number in range(4)]
+    unseen = [
+        UnseenSample(at_s=at_s, image_number=int(20 * at_s), reason="the camera is not calibrated")
+        for at_s in times_s
+    ]
+    seen = [
+        TipSample(
+            at_s=at_s, image_number=int(20 * at_s), tip_in_anchor_mm=np.zeros(3), covariance_mm2=np.eye(3)
+        )
+        for at_s in times_s
+    ]
+    errors = []
+    for samples in (unseen, seen):
+        with pytest.raises(NavigationError) as raised_error:
+            captured(samples)
+        errors.append(reason_of_error(raised_error.value))
+    assert errors[0].message["de"] == (
+        "die Spitze war in 0 von 4 Bildern bei 0.5 Bildern/s (die Kamera liefert 20.0) bekannt "
+        "und in 4 nicht (die Kamera ist nicht kalibriert), nötig in allen"
+    )
+    assert "bei 0.5 Bildern/s (die Kamera liefert 20.0)" in errors[1].message["de"]
+    assert "Der Rechner überspringt Bilder" in errors[1].remedy["de"]

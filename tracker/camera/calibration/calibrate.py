@@ -222,13 +222,13 @@ def _reject_model(settings: CalibrationSettings) -> None:
 def _reject_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -> None:
     if sound >= MIN_VIEWS:
         return
-    why = next((fault for fault in faults if fault), "")
+    fault = next((fault for fault in faults if fault), "")
+    hint = f" (the first that cannot: {fault})" if fault else ""
     raise CalibrationError(
         "TOO_FEW_VIEWS",
-        f"{sound} of {len(views)} views of the board can be used, at least {MIN_VIEWS} are needed"
-        + (f" (the first that cannot: {why})" if why else ""),
+        f"{sound} of {len(views)} views of the board can be used, at least {MIN_VIEWS} are needed{hint}",
         "Take 10 to 20 images with the whole board in view, tilted by 20 to 45 deg to different sides.",
-        {"views": len(views), "usable": sound, "needed": MIN_VIEWS},
+        {"views": len(views), "usable": sound, "needed": MIN_VIEWS, "fault_hint": hint},
     )
 
 

@@ -111,5 +111,5 @@ def _diverged(views: int, why: str) -> CalibrationError:
         f"no camera fits the {views} views: {why}",
         "Check columns, rows and layout of the board, and take 10 to 20 views with the board tilted by up to "
         "45 deg in different directions.",
-        {"views": views},
+        {"views": views, "divergence": why},
     )

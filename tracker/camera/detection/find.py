@@ -83,5 +83,6 @@ def _grey(image: npt.NDArray[np.uint8]) -> GreyImage:
             f"an image has shape {array.shape} and type {array.dtype}, needed (h, w) or (h, w, 3) of 8 bits, "
             "at least 16 x 16",
             "Give the image as the camera made it.",
+            {"shape": str(array.shape), "dtype": str(array.dtype)},
         )
     return array if array.ndim == 2 else np.asarray(cv2.cvtColor(array, cv2.COLOR_BGR2GRAY), dtype=np.uint8)

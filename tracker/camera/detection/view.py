@@ -85,6 +85,7 @@ class BoardView:
                 f"a view of a board has {ids.size} ids, object points of shape {points.shape} and image "
                 f"points of shape {px.shape}, needed (n,), (n, 3), (n, 2), finite, each id once",
                 "Detect the board again in its image.",
+                {"ids": ids.size, "object_shape": str(points.shape), "image_shape": str(px.shape)},
             )
         order = np.argsort(ids)
         radii = radii[order] if radii.size else radii

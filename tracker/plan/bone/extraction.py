@@ -78,6 +78,7 @@ class BoneSettings:
                 "BONE_SETTINGS_INVALID",
                 f"the bone surface cannot be extracted: {problem}",
                 "Give a threshold in HU, 0 to 200 rounds of smoothing, and 100 triangles or more.",
+                {"bone_problem": problem},
             )
 
 

@@ -169,5 +169,8 @@ def _list(value: object, where: str) -> list[Any]:
 
 def _invalid(where: str, what: str) -> PlanError:
     return PlanError(
-        "PLAN_INVALID", f"the plan cannot be read: {where} {what}", "Export the plan again.", {"where": where}
+        "PLAN_INVALID",
+        f"the plan cannot be read: {where} {what}",
+        "Export the plan again.",
+        {"where": where, "plan_fault": what},
     )

@@ -34,7 +34,7 @@ def validate_plan(plan: PlanDocument) -> None:
             "PLAN_INVALID",
             f"the plan cannot be used: {where} {what}",
             "Export the plan again from the program in which it was made.",
-            {"where": where},
+            {"where": where, "plan_place": where, "plan_fault": what},
         )
 
 

@@ -123,6 +123,7 @@ def _checked(points: Array, corners: Faces) -> tuple[Array, Faces]:
             "MESH_INVALID",
             f"the mesh cannot be used: {problem}",
             "Export the bone's surface again as triangles in STL, OBJ or PLY.",
+            {"mesh_problem": problem},
         )
     return points, corners
 
@@ -160,22 +161,24 @@ def _kind(size: Array, unit: str | None) -> Kind:
     if kind is not None:
         return kind
     fits = fitting_units(size)
-    context: dict[str, object] = {
-        "size": size.tolist(),
-        "unit": unit,
-        "proposed_unit": fits[0].unit if fits else None,
-        "possible_units": [fit.unit for fit in fits],
-    }
-    message = (
-        f"the mesh is {_sides(size)} in its own units, which in {unit or 'mm'} is "
-        "neither a vertebra nor several"
+    units = "; ".join(_formatted(fit) for fit in fits)
+    sides, tried = _sides(size), unit or "mm"
+    raise PlanError(
+        "MESH_UNIT_NEEDED" if fits and unit is None else "MESH_SIZE_IMPLAUSIBLE",
+        f"the mesh is {sides} in its own units, which in {tried} is neither a vertebra nor several",
+        f"Measure it and give its unit: {units}."
+        if fits
+        else "Its size is implausible in any unit: export one vertebra only, with its unit.",
+        {
+            "size": size.tolist(),
+            "sides": sides,
+            "unit": unit,
+            "tried_unit": tried,
+            "proposed_unit": fits[0].unit if fits else None,
+            "possible_units": [fit.unit for fit in fits],
+            "fitting_units": units,
+        },
     )
-    if not fits:
-        remedy = "Its size is implausible in any unit: export one vertebra only, with its unit."
-        raise PlanError("MESH_SIZE_IMPLAUSIBLE", message, remedy, context)
-    formatted = "; ".join(_formatted(fit) for fit in fits)
-    code = "MESH_UNIT_NEEDED" if unit is None else "MESH_SIZE_IMPLAUSIBLE"
-    raise PlanError(code, message, f"Measure it and give its unit: {formatted}.", context)
 
 
 def _formatted(fit: FittingUnit) -> str:

@@ -31,11 +31,12 @@ def reject_positions_only(sources: Sequence[PoseSeries], motion: Motion) -> None
     """Reject a comparison of rotations with a source that has positions only."""
     without = [source.name for source in sources if source.rotations is None]
     if motion is Motion.ROTATION and without:
+        names = ", ".join(without)
         raise InvalidInput(
             "TIME_OFFSET_NEEDS_ROTATIONS",
-            f"{' and '.join(without)} has positions only",
+            f"sources with positions only: {names}",
             "Compare translations, if both sources track the same point of the tool.",
-            {"sources": without},
+            {"sources": without, "names": names},
         )
 
 
@@ -73,6 +74,7 @@ def reject_short_overlap(a: RateSignal, b: RateSignal, overlap_s: float, limits:
                 "overlap_s": max(overlap_s, 0.0),
                 "min_overlap_s": limits.min_overlap_s,
                 "max_offset_s": limits.max_offset_s,
+                "spans": spans,
             },
         )
 
@@ -85,7 +87,17 @@ def reject_uniform_motion(
     needed = limits.min_rotation_deg_s if rotates else limits.min_translation_mm_s
     unit, key = UNIT[motion], UNIT_NAME[motion]
     rate, variation = rms
-    context = {"source": name, f"rate_{key}": rate, f"variation_{key}": variation, f"needed_{key}": needed}
+    context = {
+        "source": name,
+        f"rate_{key}": rate,
+        f"variation_{key}": variation,
+        f"needed_{key}": needed,
+        "motion": motion.value,
+        "rate": rate,
+        "variation": variation,
+        "needed": needed,
+        "rate_unit": unit,
+    }
     if rate < needed:
         raise CalibrationError(
             "TIME_OFFSET_NO_MOTION",
@@ -156,7 +168,14 @@ def reject_uncertain(offset_s: float, sd_s: float, limits: TimeOffsetLimits) -> 
             f"the offset of {offset_s * 1000.0:+.1f} ms has a standard deviation of {sd_s * 1000.0:.1f} ms, "
             f"allowed {limits.max_sd_s * 1000.0:g} ms",
             MOVE_REMEDY,
-            {"offset_s": offset_s, "sd_s": sd_s, "max_sd_s": limits.max_sd_s},
+            {
+                "offset_s": offset_s,
+                "sd_s": sd_s,
+                "max_sd_s": limits.max_sd_s,
+                "offset_ms": offset_s * 1000.0,
+                "sd_ms": sd_s * 1000.0,
+                "max_sd_ms": limits.max_sd_s * 1000.0,
+            },
         )
 
 

@@ -70,7 +70,7 @@ class PoseSeries:
             "TIME_SERIES_INVALID",
             f"{self.name}: {what}",
             "Give increasing times in seconds with one pose each, and omit times without a pose.",
-            {"source": self.name},
+            {"source": self.name, "series_problem": what},
         )
 
     def without_repeats(self) -> "PoseSeries":

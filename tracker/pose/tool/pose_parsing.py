@@ -75,4 +75,9 @@ def _numbers(row: Array) -> str:
 
 
 def _invalid(what: str) -> InvalidInput:
-    return InvalidInput("POSE_MATRIX_INVALID", f"a pose is not a rigid motion: {what}", MATRIX_REMEDY)
+    return InvalidInput(
+        "POSE_MATRIX_INVALID",
+        f"a pose is not a rigid motion: {what}",
+        MATRIX_REMEDY,
+        {"pose_problem": what},
+    )

@@ -89,7 +89,13 @@ def _reject_metres(translations_mm: Array) -> None:
         f"in {which} poses the marker is nearer than {MIN_DISTANCE_MM:g} mm to the camera (median "
         f"{shown:.3g} mm), which is impossible; these seem to be metres",
         "Give all translations in one unit, and specify it if it is not mm (m: --unit m).",
-        {"near": near, "poses": len(distances), "median_distance_mm": shown},
+        {
+            "near": near,
+            "poses": len(distances),
+            "median_distance_mm": shown,
+            "min_distance_mm": MIN_DISTANCE_MM,
+            "near_poses": which,
+        },
     )
 
 

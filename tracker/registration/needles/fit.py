@@ -168,12 +168,13 @@ def _reject_disagreement(best: Solution, freedom: int, gate: NeedleLimits) -> No
     if probability >= gate.min_probability_ratio:
         return
     allowed = float(scipy.special.chdtri(freedom, gate.min_probability_ratio))
+    worst = _worst(best)
     raise RegistrationError(
         "NEEDLES_DISAGREE",
         f"needles, ruler and touched points disagree: chi squared is {best.chi2:.0f}, allowed {allowed:.0f}; "
-        f"worst is {_worst(best)}",
+        f"worst is {worst}",
         "Check the names and entries of the needles, V, H and azimuth, and the touched points.",
-        {"chi2": best.chi2, "allowed_chi2": allowed},
+        {"chi2": best.chi2, "allowed_chi2": allowed, "worst_observation": worst},
     )
 
 

@@ -5,6 +5,7 @@ from server.texts.errors.remedies.camera import CAMERA
 from server.texts.errors.remedies.cases import CASES
 from server.texts.errors.remedies.certificate import CERTIFICATE
 from server.texts.errors.remedies.procedure import PROCEDURE
+from server.texts.errors.remedies.process import PROCESS
 from server.texts.errors.remedies.recordings import RECORDINGS
 from server.texts.errors.remedies.registration import REGISTRATION
 from server.texts.errors.remedies.tool import TOOL
@@ -15,6 +16,7 @@ REMEDIES: tuple[Text, ...] = (
     *REGISTRATION,
     *TOOL,
     *CAMERA,
+    *PROCESS,
     *RECORDINGS,
     *CASES,
     *ACCESS,

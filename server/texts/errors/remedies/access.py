@@ -63,4 +63,9 @@ ACCESS: tuple[Text, ...] = (
         "en": "Use one of these cameras, or configure another one in the settings.",
         "de": "Eine dieser Kameras verwenden, oder eine weitere in den Einstellungen angeben.",
     },
+    {
+        "en": "Move the file to another folder and start again; everybody then has to be invited again.",
+        "de": "Die Datei in einen anderen Ordner verschieben und neu starten; alle müssen dann neu "
+        "eingeladen werden.",
+    },
 )

@@ -200,4 +200,273 @@ CAMERA: tuple[Text, ...] = (
         "de": "Andere Seiten schließen, ein kleineres Bild wählen oder camera.rate_hz senken, und neu "
         "messen.",
     },
+    {
+        "en": "Take another image that is sharp and shows the whole board without glare.",
+        "de": "Ein anderes Bild aufnehmen, das scharf ist und die ganze Tafel ohne Spiegelung zeigt.",
+    },
+    {
+        "en": "Hold the whole board still and in focus, and try again.",
+        "de": "Die ganze Tafel ruhig und scharf im Bild halten und erneut versuchen.",
+    },
+    {
+        "en": "Take 10 to 20 images with the whole board in view, tilted by 20 to 45 deg to different sides.",
+        "de": "10 bis 20 Bilder mit der ganzen Tafel aufnehmen, um 20 bis 45° nach verschiedenen Seiten "
+        "geneigt.",
+    },
+    {
+        "en": "Check columns, rows and layout of the board, and take 10 to 20 views with the board tilted "
+        "by up to 45 deg in different directions.",
+        "de": "Spalten, Zeilen und Muster der Tafel prüfen, und 10 bis 20 Ansichten aufnehmen, mit der "
+        "Tafel um bis zu 45° in verschiedene Richtungen geneigt.",
+    },
+    {
+        "en": "Give more points of the plane, spread over it and other than those that are measured.",
+        "de": "Mehr Punkte der Ebene angeben, über sie verteilt und andere als die gemessenen.",
+    },
+    {
+        "en": "Give two coordinates in mm and two in px for each point.",
+        "de": "Zu jedem Punkt zwei Koordinaten in mm und zwei in px angeben.",
+    },
+    {
+        "en": "Give numbers for all coordinates.",
+        "de": "Für alle Koordinaten Zahlen angeben.",
+    },
+    {
+        "en": "Use images of the size that the camera was calibrated with.",
+        "de": "Bilder der Größe verwenden, mit der die Kamera kalibriert wurde.",
+    },
+    {
+        "en": "Count the board again: dots, or inner corners of a checkerboard, or squares of a ChArUco "
+        "board, or tags of an AprilGrid.",
+        "de": "Die Tafel neu auszählen: Punkte, oder innere Ecken eines Schachbretts, oder Quadrate einer "
+        "ChArUco-Tafel, oder Tags eines AprilGrid.",
+    },
+    {
+        "en": "Give the image as the camera made it.",
+        "de": "Das Bild so angeben, wie die Kamera es lieferte.",
+    },
+    {
+        "en": "Check that the image file exists.",
+        "de": "Prüfen, ob die Bilddatei existiert.",
+    },
+    {
+        "en": "Give grey or BGR images with 8 bits.",
+        "de": "Graue oder BGR-Bilder mit 8 Bit angeben.",
+    },
+    {
+        "en": "Give an image of the camera that was calibrated.",
+        "de": "Ein Bild der kalibrierten Kamera angeben.",
+    },
+    {
+        "en": "Detect the board again in its image.",
+        "de": "Die Tafel in ihrem Bild neu suchen.",
+    },
+    {
+        "en": "Give the two ends of each displacement, in mm on the plane and in px in the image.",
+        "de": "Beide Enden jeder Verschiebung angeben, in mm auf der Ebene und in px im Bild.",
+    },
+    {
+        "en": "Calibrate the camera again, or give OpenCV's K (3x3), distortion and image size.",
+        "de": "Die Kamera neu kalibrieren, oder K (3x3), Verzeichnung und Bildgröße wie in OpenCV angeben.",
+    },
+    {
+        "en": "Check fx and fy. Pixels that are far from square come from one field of interlaced video or "
+        "a squeezed image: use images of full width and height, and calibrate on them.",
+        "de": "fx und fy prüfen. Stark längliche Pixel stammen aus einem Halbbild oder einem gestauchten "
+        "Bild: Bilder in voller Breite und Höhe verwenden und mit ihnen kalibrieren.",
+    },
+    {
+        "en": "Check cx and cy, and that they belong to this image size; a region of the sensor must "
+        "contain the axis.",
+        "de": "cx und cy prüfen, und dass sie zu dieser Bildgröße gehören; ein Ausschnitt des Sensors muss "
+        "die Achse enthalten.",
+    },
+    {
+        "en": "Check that the focal lengths are in pixels of images of this size, not in mm, or calibrate "
+        "again.",
+        "de": "Prüfen, dass die Brennweiten in Pixeln von Bildern dieser Größe sind, nicht in mm, oder neu "
+        "kalibrieren.",
+    },
+    {
+        "en": "Check the order k1 k2 p1 p2 k3 ... and that the coefficients belong to this matrix and "
+        "image size, or calibrate again with views of the board up to the corners of the image.",
+        "de": "Die Reihenfolge k1 k2 p1 p2 k3 ... prüfen, und dass die Koeffizienten zu dieser Matrix und "
+        "Bildgröße gehören, oder neu kalibrieren mit Ansichten der Tafel bis in die Ecken des Bildes.",
+    },
+    {
+        "en": "Omit controls, or give values for some of: {names}.",
+        "de": "controls weglassen, oder Werte für einige davon angeben: {names}.",
+    },
+    {
+        "en": "Omit readout_ms if it is unknown; 0 is a global shutter.",
+        "de": "readout_ms weglassen, wenn die Zeit unbekannt ist; 0 ist ein Global Shutter.",
+    },
+    {
+        "en": "A camera file is YAML or JSON with matrix (3 rows of 3), distortion (4, 5, 8, 12 or 14 "
+        "numbers) and size_wh_px (width, height).",
+        "de": "Eine Kameradatei ist YAML oder JSON mit matrix (3 Zeilen zu 3), distortion (4, 5, 8, 12 "
+        "oder 14 Zahlen) und size_wh_px (Breite, Höhe).",
+    },
+    {
+        "en": "Move it quickly to and fro, sideways and up and down, about twice a second, and keep it in "
+        "the picture.",
+        "de": "Sie schnell hin und her bewegen, seitwärts und auf und ab, etwa zweimal je Sekunde, und im "
+        "Bild halten.",
+    },
+    {
+        "en": "Hold the board nearer, so that it fills half of the picture, and facing the camera. Move it "
+        "quickly to and fro, sideways and up and down, about twice a second, and keep it in the "
+        "picture.",
+        "de": "Die Tafel näher halten, so dass sie das halbe Bild füllt und zur Kamera zeigt. Sie schnell "
+        "hin und her bewegen, seitwärts und auf und ab, etwa zweimal je Sekunde, und im Bild halten.",
+    },
+    {
+        "en": "Switch off rotation and mirroring of the image. If that does not help, the times of the "
+        "images are wrong: try another port.",
+        "de": "Drehung und Spiegelung des Bildes abschalten. Hilft das nicht, sind die Zeiten der Bilder "
+        "falsch: einen anderen Anschluss versuchen.",
+    },
+    {
+        "en": "Measure V and H from the camera to the object in mm again, and a displacement that can be "
+        "seen.",
+        "de": "V und H von der Kamera zum Objekt in mm neu messen, und eine Verschiebung, die zu sehen ist.",
+    },
+    {
+        "en": "Replace it or remove it from the folder; it is skipped until then.",
+        "de": "Es ersetzen oder aus dem Ordner entfernen; bis dahin wird es übersprungen.",
+    },
+    {
+        "en": "Replace them or remove them from the folder; they are skipped until then.",
+        "de": "Sie ersetzen oder aus dem Ordner entfernen; bis dahin werden sie übersprungen.",
+    },
+    {
+        "en": "Put images into the folder, or give another folder; it is retried automatically.",
+        "de": "Bilder in den Ordner legen, oder einen anderen Ordner angeben; es wird automatisch neu "
+        "versucht.",
+    },
+    {
+        "en": "Check the path in camera.source or --source; it is retried automatically.",
+        "de": "Den Pfad in camera.source oder --source prüfen; es wird automatisch neu versucht.",
+    },
+    {
+        "en": "Give a complete video file (MP4, MOV, AVI or MKV); copy or export a truncated file again.",
+        "de": "Eine vollständige Videodatei angeben (MP4, MOV, AVI oder MKV); eine abgeschnittene Datei "
+        "neu kopieren oder exportieren.",
+    },
+    {
+        "en": "Set camera.width, camera.height and camera.rate_hz to a mode of the phone's camera, or to "
+        "null.",
+        "de": "camera.width, camera.height und camera.rate_hz auf einen Modus der Kamera des Telefons oder "
+        "auf null setzen.",
+    },
+    {
+        "en": "Check the camera of the plug-in and its address in camera.source; it is retried "
+        "automatically.",
+        "de": "Die Kamera des Plug-ins und ihre Adresse in camera.source prüfen; es wird automatisch neu "
+        "versucht.",
+    },
+    {
+        "en": "Install its package into the environment of Coaxial, or correct its name in the settings.",
+        "de": "Sein Paket in die Umgebung von Coaxial installieren, oder seinen Namen in den Einstellungen "
+        "berichtigen.",
+    },
+    {
+        "en": "Uninstall all of them but one.",
+        "de": "Alle bis auf eines deinstallieren.",
+    },
+    {
+        "en": "Correct or update its package, then start again.",
+        "de": "Sein Paket berichtigen oder aktualisieren, dann neu starten.",
+    },
+    {
+        "en": "Check address, cable and power of the camera; it is retried automatically.",
+        "de": "Adresse, Kabel und Strom der Kamera prüfen; es wird automatisch neu versucht.",
+    },
+    {
+        "en": "Point the camera at the screen, darken the room, or move closer until the code is large.",
+        "de": "Die Kamera auf den Bildschirm richten, den Raum abdunkeln, oder näher herangehen, bis der "
+        "Code groß ist.",
+    },
+    {
+        "en": "Draw each snapshot into the image from which it was computed.",
+        "de": "Jedes Ergebnis in das Bild zeichnen, aus dem es berechnet wurde.",
+    },
+    {
+        "en": "Use images with 1 or 3 channels and at most 65,500 px on a side.",
+        "de": "Bilder mit 1 oder 3 Kanälen und höchstens 65 500 px Seitenlänge verwenden.",
+    },
+    {
+        "en": "Give a smaller --dot-mm, or a larger --pitch-mm; larger dots have 1.5 times --dot-mm.",
+        "de": "--dot-mm kleiner oder --pitch-mm größer angeben; größere Punkte haben das 1,5-Fache von "
+        "--dot-mm.",
+    },
+    {
+        "en": "Use fewer or smaller dots or squares, or a larger paper with --paper A3.",
+        "de": "Weniger oder kleinere Punkte oder Quadrate verwenden, oder ein größeres Papier mit --paper "
+        "A3.",
+    },
+    {
+        "en": "Give --paper with one of {papers}.",
+        "de": "--paper mit einem von {papers} angeben.",
+    },
+    {
+        "en": "Give another side with --side-mm.",
+        "de": "Mit --side-mm eine andere Seitenlänge angeben.",
+    },
+    {
+        "en": "{omit_hint}Set the camera to {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px, or "
+        "calibrate it at {image_size_wh_px[0]}x{image_size_wh_px[1]} px. {scaling_hint}",
+        "de": "{omit_hint}Die Kamera auf {calibrated_size_wh_px[0]}x{calibrated_size_wh_px[1]} px stellen, "
+        "oder sie mit {image_size_wh_px[0]}x{image_size_wh_px[1]} px kalibrieren. {scaling_hint}",
+    },
+    {
+        "en": "Give a square grey image that the black square fills edge to edge, with no white margin.",
+        "de": "Ein quadratisches graues Bild angeben, das das schwarze Quadrat von Rand zu Rand füllt, "
+        "ohne weißen Rand.",
+    },
+    {
+        "en": "Set a ratio between 0 and 1.",
+        "de": "Ein Verhältnis zwischen 0 und 1 setzen.",
+    },
+    {
+        "en": "Set {key} to {allowed_values}.",
+        "de": "{key} neu setzen: {allowed_values}.",
+    },
+    {
+        "en": "Check the camera, its power and its cable; it is retried automatically.",
+        "de": "Kamera, Strom und Kabel prüfen; es wird automatisch neu versucht.",
+    },
+    {
+        "en": "Start the trigger source, and check its cable; or set camera.trigger to null.",
+        "de": "Die Triggerquelle starten und ihr Kabel prüfen; oder camera.trigger auf null setzen.",
+    },
+    {
+        "en": "Reload the page on the phone; if the error persists, use another browser.",
+        "de": "Die Seite auf dem Telefon neu laden; bleibt der Fehler, einen anderen Browser verwenden.",
+    },
+    {
+        "en": "Move the phone closer to its access point, or set smaller images with camera.width and "
+        "camera.height.",
+        "de": "Das Telefon näher an seinen Zugangspunkt bringen, oder mit camera.width und camera.height "
+        "kleinere Bilder einstellen.",
+    },
+    {
+        "en": "Touch STOP and START on the phone.",
+        "de": "Auf dem Telefon STOP und START berühren.",
+    },
+    {
+        "en": "Set camera.width and camera.height to a size of the phone's camera.",
+        "de": "camera.width und camera.height auf eine Größe der Kamera des Telefons setzen.",
+    },
+    {
+        "en": "Start it with coaxial run --source phone, or set camera.source to phone in its settings.",
+        "de": "Den Server mit coaxial run --source phone starten, oder in seinen Einstellungen "
+        "camera.source auf phone setzen.",
+    },
+    {
+        "en": "Set {control} back to {calibrated} (a restart does this, unless camera.lock_controls is "
+        "false), or calibrate the camera again.",
+        "de": "{control} auf {calibrated} zurückstellen (ein Neustart tut das, außer wenn "
+        "camera.lock_controls false ist), oder die Kamera neu kalibrieren.",
+    },
 )

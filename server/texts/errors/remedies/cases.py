@@ -185,4 +185,65 @@ CASES: tuple[Text, ...] = (
         "de": "Die Version von Coaxial starten, die sie erstellte, oder COAXIAL_HOME auf einen anderen "
         "Ordner setzen.",
     },
+    {
+        "en": "Give a folder or zip of the CT's DICOM slices, or a NIfTI file.",
+        "de": "Einen Ordner oder ein Zip mit den DICOM-Schichten des CT angeben, oder eine NIfTI-Datei.",
+    },
+    {
+        "en": "Upload the CT again.",
+        "de": "Das CT neu hochladen.",
+    },
+    {
+        "en": "Its size is implausible in any unit: export one vertebra only, with its unit.",
+        "de": "Seine Größe ist in keiner Einheit plausibel: nur einen Wirbel exportieren, mit seiner "
+        "Einheit.",
+    },
+    {
+        "en": "Measure it and give its unit: {fitting_units}.",
+        "de": "Es nachmessen und seine Einheit angeben: {fitting_units}.",
+    },
+    {
+        "en": "Export the surface again as triangles, in mm of the patient's coordinates.",
+        "de": "Die Oberfläche neu als Dreiecke exportieren, in mm der Patientenkoordinaten.",
+    },
+    {
+        "en": "Export the series again as DICOM or NIfTI with its geometry, at least two slices.",
+        "de": "Die Serie neu als DICOM oder NIfTI mit ihrer Geometrie exportieren, mindestens zwei "
+        "Schichten.",
+    },
+    {
+        "en": "Give a threshold in HU, 0 to 200 rounds of smoothing, and 100 triangles or more.",
+        "de": "Einen Schwellwert in HU angeben, 0 bis 200 Durchgänge der Glättung, und 100 Dreiecke oder "
+        "mehr.",
+    },
+    {
+        "en": "Export the plan again.",
+        "de": "Den Plan neu exportieren.",
+    },
+    {
+        "en": "Give another one.",
+        "de": "Eine andere Angabe machen.",
+    },
+    {
+        "en": "Give texts, finite numbers, true, false, null, and lists and mappings of them.",
+        "de": "Texte, endliche Zahlen, true, false, null, und Listen und Zuordnungen davon angeben.",
+    },
+    {
+        "en": "Export the case again on its server; nothing of this archive was stored.",
+        "de": "Den Fall auf seinem Server neu exportieren; von diesem Archiv wurde nichts gespeichert.",
+    },
+    {
+        "en": "The next request starts another attempt.",
+        "de": "Die nächste Anfrage beginnt einen neuen Versuch.",
+    },
+    {
+        "en": "Save the markup in 3D Slicer again, as Markups JSON (.mrk.json).",
+        "de": "Die Markierung in 3D Slicer neu speichern, als Markups JSON (.mrk.json).",
+    },
+    {
+        "en": "Save one linear transform without scale as text (.tfm), not a composite, a deformation or "
+        "HDF5 (.h5).",
+        "de": "Eine lineare Transformation ohne Skalierung als Text (.tfm) speichern, keine "
+        "zusammengesetzte, keine Deformation und kein HDF5 (.h5).",
+    },
 )

@@ -99,4 +99,8 @@ RECORDINGS: tuple[Text, ...] = (
         "de": "Die Platte der Fälle prüfen, dann die Aufnahme neu starten. Die Navigation läuft "
         "weiter, und der bisher geschriebene Teil ist lesbar.",
     },
+    {
+        "en": 'Install it into the environment of Coaxial: pip install "coaxial[video]", or pip install av.',
+        "de": 'In die Umgebung von Coaxial installieren: pip install "coaxial[video]", oder pip install av.',
+    },
 )

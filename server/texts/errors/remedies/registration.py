@@ -108,34 +108,8 @@ REGISTRATION: tuple[Text, ...] = (
         "schwenken und neu kalibrieren.",
     },
     {
-        "en": "Hold the tip still on the landmark until it is captured.",
-        "de": "Die Spitze ruhig auf die Landmarke halten, bis sie erfasst ist.",
-    },
-    {
-        "en": "Hold the tip still on the landmark for another {left_s:.1f} s, until it is captured.",
-        "de": "Die Spitze noch {left_s:.1f} s ruhig auf die Landmarke halten, bis sie erfasst ist.",
-    },
-    {
-        "en": "Hold the tip still on the landmark until it is taken.",
-        "de": "Die Spitze ruhig auf die Landmarke halten, bis sie erfasst ist.",
-    },
-    {
-        "en": "Hold the tip still on the landmark for {hold_s:.1f} s at {rate_hz:.1f} images/s, until it is "
-        "taken.",
-        "de": "Die Spitze {hold_s:.1f} s lang (bei {rate_hz:.1f} Bildern/s) ruhig auf die Landmarke halten, "
-        "bis sie erfasst ist.",
-    },
-    {
         "en": "Turn the markers to the camera, do not cover them, and touch the landmark again.",
         "de": "Die Marker zur Kamera drehen, nicht verdecken, und die Landmarke neu antasten.",
-    },
-    {
-        "en": "Hold the tip still, and touch the landmark again.",
-        "de": "Die Spitze ruhig halten und die Landmarke neu antasten.",
-    },
-    {
-        "en": "Touch the landmark again when images come faster.",
-        "de": "Die Landmarke neu antasten, wenn die Bilder schneller kommen.",
     },
     {
         "en": "Available tools: {tools}. Calibrate tip and axis first.",
@@ -280,5 +254,25 @@ REGISTRATION: tuple[Text, ...] = (
     {
         "en": "Give the positions of the tip in mm, in the anchor's frame.",
         "de": "Die Orte der Spitze in mm angeben, im Koordinatensystem des Ankers.",
+    },
+    {
+        "en": "Hold the tip still on the landmark{left_hint} until it is captured.",
+        "de": "Die Spitze{left_hint} ruhig auf die Landmarke halten, bis sie erfasst ist.",
+    },
+    {
+        "en": "Hold the tip still on the landmark{hold_hint} until it is taken.",
+        "de": "Die Spitze{hold_hint} ruhig auf die Landmarke halten, bis sie erfasst ist.",
+    },
+    {
+        "en": "Hold the tip still, and touch the landmark again.{rate_remedy}",
+        "de": "Die Spitze ruhig halten und die Landmarke neu antasten.{rate_remedy}",
+    },
+    {
+        "en": "Touch the landmark again when images come faster.{rate_remedy}",
+        "de": "Die Landmarke neu antasten, wenn die Bilder schneller kommen.{rate_remedy}",
+    },
+    {
+        "en": "Check the names and entries of the needles, V, H and azimuth, and the touched points.",
+        "de": "Namen und Eintritte der Nadeln, V, H und Azimut sowie die angetasteten Punkte prüfen.",
     },
 )

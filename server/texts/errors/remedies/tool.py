@@ -134,4 +134,48 @@ TOOL: tuple[Text, ...] = (
         "de": "Ein PNG-, JPEG- oder BMP-Bild angeben, das vom schwarzen Quadrat des Markers bis zum "
         "Rand ausgefüllt wird, Zeile 0 oben.",
     },
+    {
+        "en": "Add the axis with 'coaxial spin', or set tools.{tool}.axis_in_marker.",
+        "de": "Die Achse mit „coaxial spin“ hinzufügen, oder tools.{tool}.axis_in_marker setzen.",
+    },
+    {
+        "en": "Write one with 'coaxial pivot POSES --marker NAME --side-mm MM --output FILE'.",
+        "de": "Eine mit „coaxial pivot POSES --marker NAME --side-mm MM --output FILE“ schreiben.",
+    },
+    {
+        "en": "Check the source of this 4x4 matrix: no scale, no reflection, row-major order.",
+        "de": "Die Herkunft dieser 4x4-Matrix prüfen: keine Skalierung, keine Spiegelung, zeilenweise "
+        "Ordnung.",
+    },
+    {
+        "en": "Compare translations, if both sources track the same point of the tool.",
+        "de": "Verschiebungen vergleichen, wenn beide Quellen denselben Punkt des Instruments verfolgen.",
+    },
+    {
+        "en": "Record longer with both sources at once, start both clocks together, or reduce the search.",
+        "de": "Länger mit beiden Quellen zugleich aufnehmen, beide Uhren zusammen starten, oder den "
+        "Suchbereich verkleinern.",
+    },
+    {
+        "en": "Record again: rotate and move the tool by hand, fast and irregularly, in view of both for "
+        "over 10 s.",
+        "de": "Neu aufnehmen: das Instrument von Hand schnell und unregelmäßig drehen und bewegen, über 10 "
+        "s lang im Blick beider.",
+    },
+    {
+        "en": "Give increasing times in seconds with one pose each, and omit times without a pose.",
+        "de": "Ansteigende Zeiten in Sekunden mit je einer Lage angeben, Zeiten ohne Lage weglassen.",
+    },
+    {
+        "en": "Each pose is a 4x4 matrix that maps points from the marker's frame to the camera's: "
+        "rotation on the left, translation in the last column, 0 0 0 1 in the last row.",
+        "de": "Jede Lage ist eine 4x4-Matrix, die Punkte aus dem Koordinatensystem des Markers in das der "
+        "Kamera überführt: links die Drehung, in der letzten Spalte die Verschiebung, in der letzten "
+        "Zeile 0 0 0 1.",
+    },
+    {
+        "en": "Give all translations in one unit, and specify it if it is not mm (m: --unit m).",
+        "de": "Alle Verschiebungen in einer Einheit angeben, und diese nennen, wenn es nicht mm ist (m: "
+        "--unit m).",
+    },
 )

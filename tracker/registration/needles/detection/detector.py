@@ -286,6 +286,7 @@ def _checked(image: npt.ArrayLike, camera: CameraModel) -> Image8:
             f"the image is {picture.dtype} of shape {picture.shape}, needed uint8 of {height} rows and "
             f"{width} columns, grey or BGR",
             "Give an image of the camera that was calibrated.",
+            {"shape": str(picture.shape), "dtype": str(picture.dtype), "size_wh_px": [width, height]},
         )
     if picture.ndim == 2:
         return np.asarray(cv2.cvtColor(picture, cv2.COLOR_GRAY2BGR), dtype=np.uint8)

@@ -59,7 +59,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
   const { collecting } = gates;
   return (
     <Card title={texts.collecting} testId="collection">
-      <p className="newest" data-taking={data.message === "taken" ? "taken" : ""} role="status">
+      <p className="newest" data-taking={data.is_taken ? "taken" : ""} role="status">
         {data.running ? sentence(data.message) : texts.ended}
       </p>
       <RejectionNote rejection={data.problem === null ? null : new Rejection(data.problem)} />
