@@ -78,6 +78,8 @@ class Rehearsal:
         (folder / "config.yaml").write_text(
             "limits: {pose_stale_after_ms: 4000, video_stale_after_ms: 5000, scene_stale_after_ms: 5000}\n"
             "security: {sign_in: off}\n"
+            # The first minute is tested at the usual rate.
+            "rehearsal: {rate_hz: 10}\n"
         )
         self.process = subprocess.Popen(
             [sys.executable, "-m", "server", "run", "--port", "0"],

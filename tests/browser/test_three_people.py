@@ -30,7 +30,8 @@ SETTINGS = {
         "reference": True,
         "width": 960,
         "height": 540,
-        "rate_hz": 10,
+        # Every image is drawn, tracked, encoded and painted, on three pages; no step needs more of them.
+        "rate_hz": 7,
         "skill": "good",
         # On a busy machine a page learns late that the tip rests, and captures late.
         "rest_s": 4.0,
