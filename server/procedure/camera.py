@@ -64,7 +64,7 @@ class CameraStep(CollectingStep[BoardCollection]):
         return self._start(lambda: BoardCollection(self._hub, board))
 
     def calibrate(self, *, made_by: str) -> Job:
-        """Fit the camera to the collected views, and store it in the open case if it is accepted.
+        """Fit the camera to the collected views; if it is accepted, store it and end the collection.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, COLLECTION_MISSING, COLLECTION_EMPTY.
@@ -84,6 +84,8 @@ class CameraStep(CollectingStep[BoardCollection]):
             document = self._keep(
                 case, values["report"], values["plots"], made_by, controls=controls, device=device
             )
+            # Nobody needs further views, and detecting the board in each image takes much of a processor.
+            collection.stop()
             return {"document_id": document.id, "version": document.version, **values["report"]}
 
         return self._jobs.start(

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, WatchedPage, arm
+from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage, arm, save_screenshot
 
 pytestmark = pytest.mark.browser
 
@@ -54,8 +54,7 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
     box = page.get_by_test_id("pause").bounding_box()
     assert box is not None
     assert min(box["width"], box["height"]) >= 48
-    SCREENSHOTS.mkdir(exist_ok=True)
-    page.screenshot(path=SCREENSHOTS / "alarm.png")
+    save_screenshot(page, "alarm")
     page.get_by_test_id("pause").click()
     expect(page.get_by_test_id("pause-left")).to_have_text(re.compile(r"^1[12]\d s$"))
     page.wait_for_function("() => window.heard.at(-1) === 'stopped'")

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.canvas import PIXELS
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, WatchedPage
+from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage, save_screenshot
 
 pytestmark = pytest.mark.browser
 expect.set_options(timeout=PATIENCE_MS)
@@ -53,8 +53,7 @@ def cut_off(page: Page, name: str) -> list[str]:
 def test_a_laptop_shows_all_that_counts_without_scrolling(board: Page) -> None:
     board.set_viewport_size({"width": 1366, "height": 768})
     name = board.url.split("/", 3)[3]
-    SCREENSHOTS.mkdir(exist_ok=True)
-    board.screenshot(path=SCREENSHOTS / f"board-{name.replace('/', '-')}.png")
+    save_screenshot(board, f"board-{name.replace('/', '-')}")
     assert cut_off(board, name) == []
     stage = board.get_by_test_id("cut-probe").bounding_box()
     assert stage is not None

@@ -2,13 +2,12 @@
 
 import re
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.canvas import PIXELS
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, WatchedPage, show_scene
+from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage, save_screenshot, show_scene
 
 pytestmark = pytest.mark.browser
 
@@ -131,7 +130,7 @@ def test_fits_the_screen_with_the_video_first(page: Page, width: int, height: in
     page.set_viewport_size({"width": width, "height": height})
     for pane in PANES:
         is_live(page, pane)
-    picture(page, f"dashboard-{width}x{height}")
+    save_screenshot(page, f"dashboard-{width}x{height}")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     assert page.locator("body").evaluate(ILLEGIBLE) == []
     boxes = [page.get_by_test_id(name).bounding_box() for name in ("video", "reading-entry", "scene")]
@@ -222,11 +221,11 @@ def test_failure_looks_like_failure(page: Page, shared_theatre: Theatre) -> None
     expect(page.get_by_test_id("alert")).to_contain_text("Check the camera's cable")
     expect(page.get_by_test_id("alarms")).to_have_attribute("data-priority", "medium")
     expect(page.get_by_test_id("alarm-top")).to_have_attribute("data-condition", "CAMERA_GONE")
-    picture(page, "camera-lost-1920x1080")
+    save_screenshot(page, "camera-lost-1920x1080")
     shared_theatre.tell("unseen")
     marker_is_out_of_view(page)
     assert not page.locator("canvas.sharp").evaluate(BLACK), "the picture did not come back"
-    picture(page, "marker-unseen-1920x1080")
+    save_screenshot(page, "marker-unseen-1920x1080")
     shared_theatre.tell("live")
     is_live(page, "numbers")
     expect(page.get_by_test_id("alert")).to_have_count(0)
@@ -245,11 +244,3 @@ def marker_is_out_of_view(page: Page) -> None:
 def figures_are_gone(page: Page) -> None:
     for name in ("entry", "angle", "depth", "toGo"):
         expect(page.get_by_test_id(f"reading-{name}")).to_have_text("—")
-
-
-def picture(page: Page, name: str) -> Path:
-    """Save a screenshot for inspection."""
-    SCREENSHOTS.mkdir(exist_ok=True)
-    path = SCREENSHOTS / f"{name}.png"
-    page.screenshot(path=path, animations="disabled")
-    return path

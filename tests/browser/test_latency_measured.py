@@ -11,7 +11,7 @@ from playwright.sync_api import Page, Route, expect
 
 from server.latency.codes import MIN_TIMED_RATIO
 from tests.browser.screen_camera import RATE_HZ, ScreenCamera
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, WatchedPage
+from tests.browser.theatre import PATIENCE_MS, WatchedPage, save_screenshot
 from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 
 pytestmark = pytest.mark.browser
@@ -103,8 +103,7 @@ def test_a_known_delay_before_the_camera_is_in_the_latency(
     assert added_ms == pytest.approx(ADDED_MS, abs=resolution_ms)
     shown_ms = math.floor(long["report"]["median_ms"] + 0.5)
     expect(page.get_by_test_id("latency-median")).to_contain_text(f"{shown_ms} ms")
-    SCREENSHOTS.mkdir(exist_ok=True)
-    page.get_by_test_id("latency").screenshot(path=SCREENSHOTS / "latency-card.png")
+    save_screenshot(page, "latency-card")
     page.goto(f"http://127.0.0.1:{filming.port}/theatre")
     page.get_by_test_id("more").click()
     line = page.get_by_test_id("light-to-page")
@@ -116,8 +115,7 @@ def test_a_touch_ends_it_and_the_server_reads_no_more(filming: RealServer, page:
     page.get_by_test_id("latency-begin").click()
     expect(page.get_by_test_id("latency-code")).to_be_visible()
     assert filming.ask("GET", "/api/latency", 200)["measuring"] is True
-    SCREENSHOTS.mkdir(exist_ok=True)
-    page.screenshot(path=SCREENSHOTS / "latency-codes.png")
+    save_screenshot(page, "latency-codes")
     page.get_by_test_id("latency-stop").click()
     expect(page.get_by_test_id("latency-code")).to_have_count(0)
     filming.until("the end of reading", lambda: not filming.ask("GET", "/api/latency", 200)["measuring"])

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, WatchedPage
+from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage, save_screenshot
 
 pytestmark = pytest.mark.browser
 
@@ -66,7 +66,7 @@ def test_each_layout_has_all_figures_and_the_same_alarms(shared_theatre: Theatre
         assert page.evaluate("document.documentElement.scrollHeight") <= 1080
         band = box(page, "[data-testid=alarms]")
         bands.add((band["x"], band["y"], band["width"]))
-        keep(page, layout)
+        save_screenshot(page, f"layout-{layout}")
     assert len(bands) == 1
     # A key does nothing before it is set on this screen.
     page.keyboard.press("F8")
@@ -88,15 +88,10 @@ def test_figures_alone_are_read_at_4_m(
     expect(page.locator("[data-reading=wall]")).to_have_attribute("data-status", "over")
     expect(page.get_by_test_id("alarm-top")).to_contain_text("0.5 mm to the medial wall")
     check_figures(page, width)
-    keep(page, f"figures-{width}")
+    save_screenshot(page, f"layout-figures-{width}")
     # Removed when they are too old, as on every other screen.
     shared_theatre.tell("stop")
     expect(page.get_by_test_id("no-tracking")).to_have_text(re.compile("NO TRACKING"))
     for name in FIGURES:
         expect(page.get_by_test_id(f"reading-{name}")).to_have_text("—")
     shared_theatre.tell("near")
-
-
-def keep(page: Page, name: str) -> None:
-    SCREENSHOTS.mkdir(exist_ok=True)
-    page.screenshot(path=SCREENSHOTS / f"layout-{name}.png")

@@ -24,7 +24,7 @@ SETTINGS = {
         "seed": 3,
         "provides_setup": False,
         "reference": True,
-        "rate_hz": 8,
+        "rate_hz": 4,
         "scene": "landmarks",
         "skill": "good",
     },

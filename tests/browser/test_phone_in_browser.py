@@ -16,7 +16,7 @@ from server.errors import CaptureError
 from server.live import ImageClock, LiveHub
 from server.loop.phone_inbox import PhoneInbox
 from server.stream.phone.receiver import Receiver
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS
+from tests.browser.theatre import PATIENCE_MS, save_screenshot
 from tests.served import served
 
 # Not the default size of the browser's camera.
@@ -90,7 +90,6 @@ def failure_of(source: PhoneSource) -> str:
 def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     browser: Browser, inbox: PhoneInbox, port: int
 ) -> None:
-    SCREENSHOTS.mkdir(exist_ok=True)
     page = opened(browser, port, UPRIGHT)
     touch_start(page)
     source = opened_source(inbox)
@@ -111,14 +110,14 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     expect(page.get_by_test_id("phone")).to_have_attribute("data-state", "sending")
     expect(page.get_by_test_id("phone")).to_contain_text("1280 × 720 px")
     expect(page.get_by_test_id("phone-server")).to_be_visible()
-    page.screenshot(path=SCREENSHOTS / "phone_upright.png")
+    save_screenshot(page, "phone_upright")
 
     # A second device is rejected with a reason, and the first continues.
     second = opened(browser, port, LYING)
-    second.screenshot(path=SCREENSHOTS / "phone_lying_idle.png")
+    save_screenshot(second, "phone_lying_idle")
     touch_start(second)
     expect(second.get_by_test_id("phone-problem")).to_contain_text("PHONE_TAKEN")
-    second.screenshot(path=SCREENSHOTS / "phone_lying_rejected.png")
+    save_screenshot(second, "phone_lying_rejected")
     assert source.read() is not None
 
     # After a reload the first device gets its place back.
@@ -130,7 +129,7 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     assert failure_of(source) == "PHONE_GONE"
     touch_start(second)
     expect(second.get_by_test_id("phone")).to_have_attribute("data-state", "sending")
-    second.screenshot(path=SCREENSHOTS / "phone_lying.png")
+    save_screenshot(second, "phone_lying")
     for one in (page, second):
         one.context.close()
 

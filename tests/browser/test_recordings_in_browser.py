@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.supervised import Supervised, opened
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, WatchedPage
+from tests.browser.theatre import PATIENCE_MS, WatchedPage, save_screenshot
 from tests.server.recording.reviewed import DRILLED
 
 pytestmark = pytest.mark.browser
@@ -27,11 +27,6 @@ def supervised() -> Iterator[Supervised]:
     server.process.communicate(timeout=30)
 
 
-def picture(page: Page, name: str) -> None:
-    SCREENSHOTS.mkdir(exist_ok=True)
-    page.screenshot(path=SCREENSHOTS / f"recording-{name}.png")
-
-
 def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised, watch: Watch) -> None:
     operator = opened(watch, supervised, "o1", "operator/navigate", TABLET)
     theatre = opened(watch, supervised, "v1", "theatre", SCREEN)
@@ -46,7 +41,7 @@ def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised,
     button.click()
     # Before the first recording of a case the patient's consent must be answered.
     expect(operator.get_by_role("dialog")).to_contain_text("Has the patient consented to recording?")
-    picture(operator, "consent")
+    save_screenshot(operator, "recording-consent")
     # The question covers no alarm: everything beside it stays visible and usable.
     expect(operator.locator(".mantine-Modal-overlay")).to_have_count(0)
     button.click(trial=True)
@@ -61,7 +56,7 @@ def test_what_the_operator_records_is_said_on_every_view(supervised: Supervised,
         expect(state).to_contain_text("REC 0:")
         expect(state).to_contain_text("1.0 kB")
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-        picture(page, name)
+        save_screenshot(page, f"recording-{name}")
     assert theatre.get_by_test_id("record").count() == phone.get_by_test_id("record").count() == 0
     expect(button).to_have_text("■ Stop recording")
     button.click()
@@ -137,7 +132,7 @@ def test_any_instant_of_a_recording_is_reviewed(
         assert shape is not None
         assert min(shape["width"], shape["height"]) >= 44, button.inner_text()
     page.get_by_test_id("review").scroll_into_view_if_needed()
-    picture(page, f"review-{size[0]}")
+    save_screenshot(page, f"recording-review-{size[0]}")
 
 
 def test_the_3d_scene_shows_the_displayed_instant(supervised: Supervised, watch: Watch) -> None:
@@ -206,7 +201,7 @@ def test_two_recordings_are_aligned_and_compared(supervised: Supervised, watch: 
         page.set_viewport_size({"width": size[0], "height": size[1]})
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
         page.get_by_test_id("review-pair").evaluate("pair => pair.scrollIntoView()")
-        picture(page, f"pair-{size[0]}")
+        save_screenshot(page, f"recording-pair-{size[0]}")
 
     # The second leads, and a hidden drill has no difference.
     hidden = DRILLED.index("hidden")
@@ -232,7 +227,7 @@ def test_two_recordings_are_aligned_and_compared(supervised: Supervised, watch: 
         re.compile(r"L3 left · drill.*−0\.8 ± 0\.17 mm.*B, .*longest 0\.9 s")
     )
     page.get_by_test_id("report-drillings").evaluate("part => part.scrollIntoView()")
-    picture(page, "report")
+    save_screenshot(page, "recording-report")
 
 
 def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
@@ -271,7 +266,7 @@ def test_a_piece_and_a_video_are_saved_and_an_instant_is_commented(
     expect(exports).to_contain_text(
         f"{len(DRILLED)} images, 0 with the overlay. The others state why the overlay is missing."
     )
-    picture(page, "exports")
+    save_screenshot(page, "recording-exports")
     # Exports are listed again after the review was closed.
     page.locator(row).get_by_test_id("review-open").click()
     page.locator(row).get_by_test_id("review-open").click()
@@ -302,7 +297,7 @@ def test_the_operator_protects_and_deletes_a_recording(supervised: Supervised, w
     row.get_by_test_id("protect").click()
     expect(row).to_contain_text("protected")
     expect(row.get_by_test_id("delete")).to_be_hidden()
-    picture(page, "list")
+    save_screenshot(page, "recording-list")
     row.get_by_test_id("protect").click()
     with page.expect_download() as download:
         row.get_by_role("link", name="Download").click()

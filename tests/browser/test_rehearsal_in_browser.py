@@ -19,7 +19,7 @@ from playwright.sync_api import Page, ViewportSize, expect
 
 from tests.browser.canvas import PIXELS
 from tests.browser.test_dashboard import DIGEST, is_live
-from tests.browser.theatre import CHECKOUT, SCREENSHOTS, WatchedPage, show_scene
+from tests.browser.theatre import CHECKOUT, WatchedPage, save_screenshot, show_scene
 
 pytestmark = pytest.mark.browser
 
@@ -78,6 +78,8 @@ class Rehearsal:
         (folder / "config.yaml").write_text(
             "limits: {pose_stale_after_ms: 4000, video_stale_after_ms: 5000, scene_stale_after_ms: 5000}\n"
             "security: {sign_in: off}\n"
+            # The first minute is tested at the usual rate.
+            "rehearsal: {rate_hz: 10}\n"
         )
         self.process = subprocess.Popen(
             [sys.executable, "-m", "server", "run", "--port", "0"],
@@ -142,11 +144,10 @@ def test_rehearsal_is_tracked_and_seen_in_picture_numbers_and_scene(
         f"first => ({DIGEST})(document.querySelector('canvas.sharp')) !== first", arg=first_picture
     )
     page.wait_for_function(THREE_DEPTHS, timeout=2 * ONE_CYCLE_MS)
-    SCREENSHOTS.mkdir(exist_ok=True)
-    picture_while_drilling(page, SCREENSHOTS / "theatre-running.png")
+    picture_while_drilling(page, "theatre-running")
     page.set_viewport_size(PICTURE)
     page.get_by_test_id("tile-sagittal").click()
-    picture_while_drilling(page, SCREENSHOTS / "dashboard.png")
+    picture_while_drilling(page, "dashboard")
 
 
 def cuts_follow_the_drill(page: Page) -> None:
@@ -168,7 +169,7 @@ def cuts_follow_the_drill(page: Page) -> None:
     page.get_by_test_id("tile-anatomical").click()
 
 
-def picture_while_drilling(page: Page, path: Path) -> None:
+def picture_while_drilling(page: Page, name: str) -> None:
     """Take a screenshot during drilling, with every pane live; the README shows one of them.
 
     On a slow machine taking it blocks the page, and late content is removed; then it is repeated.
@@ -176,7 +177,7 @@ def picture_while_drilling(page: Page, path: Path) -> None:
     """
     for _ in range(20):
         page.wait_for_function(DRILLING, timeout=2 * ONE_CYCLE_MS)
-        page.screenshot(path=path)
+        save_screenshot(page, name)
         if page.evaluate(DRILLING):
             return
     pytest.fail("in 20 screenshots the page was never live before and after")

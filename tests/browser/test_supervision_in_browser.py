@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.supervised import Supervised, opened
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, WatchedPage
+from tests.browser.theatre import PATIENCE_MS, WatchedPage, save_screenshot
 
 pytestmark = pytest.mark.browser
 expect.set_options(timeout=PATIENCE_MS)
@@ -54,11 +54,6 @@ def until_painted(marks: Locator, x_px: float, y_px: float) -> None:
     marks.page.wait_for_function(f"([canvas, at]) => ({PAINTED})(canvas, at)", arg=[handle, [x_px, y_px, 4]])
 
 
-def picture(page: Page, name: str) -> None:
-    SCREENSHOTS.mkdir(exist_ok=True)
-    page.screenshot(path=SCREENSHOTS / f"{name}.png")
-
-
 def marks_reach(theatre: Page, sato: Page) -> None:
     marks, own = theatre.get_by_test_id("marks"), sato.get_by_test_id("marks")
 
@@ -89,8 +84,8 @@ def marks_reach(theatre: Page, sato: Page) -> None:
     sato.mouse.up()
     until_painted(marks, 350, 600)
     expect(own).to_have_attribute("data-marks", "2")
-    picture(theatre, "marks-in-theatre")
-    picture(sato, "supervisor")
+    save_screenshot(theatre, "marks-in-theatre")
+    save_screenshot(sato, "supervisor")
     sato.get_by_test_id("marks-undo").click()
     expect(marks).to_have_attribute("data-marks", "1")
     sato.get_by_test_id("marks-clear").click()
@@ -121,7 +116,7 @@ def hold_is_heard(theatre: Page, sato: Page) -> None:
     sato.get_by_test_id("hold-ask").click()
     expect(theatre.get_by_test_id("alarms")).to_contain_text("Dr Sato")
     expect(sato.get_by_test_id("hold")).to_have_attribute("data-requested", "true")
-    picture(theatre, "hold-in-theatre")
+    save_screenshot(theatre, "hold-in-theatre")
     sato.get_by_test_id("hold-release").click()
     expect(sato.get_by_test_id("hold")).to_have_attribute("data-requested", "false")
 
@@ -139,8 +134,7 @@ def test_nothing_of_the_supervisors_page_lies_outside_its_screen(
         box = button.bounding_box()
         assert box is not None
         assert min(box["width"], box["height"]) >= 48, button.inner_text()
-    SCREENSHOTS.mkdir(exist_ok=True)
-    page.screenshot(path=SCREENSHOTS / f"supervisor-{width}.png", full_page=True)
+    save_screenshot(page, f"supervisor-{width}", is_full_page=True)
 
 
 def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(

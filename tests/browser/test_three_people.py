@@ -12,7 +12,7 @@ from tests.browser.by_touch.planning import moved_and_undone, plan_both_pedicles
 from tests.browser.by_touch.registering import check_on_a_landmark, register_by_points
 from tests.browser.by_touch.setting_up import board_views, calibrate_camera, calibrate_tool, open_case, play
 from tests.browser.by_touch.tablet import LANDSCAPE, Tablet, tablet_at
-from tests.browser.theatre import SCREENSHOTS, WatchedPage, arm
+from tests.browser.theatre import WatchedPage, arm, save_screenshot
 from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 
 pytestmark = pytest.mark.browser
@@ -30,7 +30,8 @@ SETTINGS = {
         "reference": True,
         "width": 960,
         "height": 540,
-        "rate_hz": 10,
+        # Every image is drawn, tracked, encoded and painted, on three pages; no step needs more of them.
+        "rate_hz": 7,
         "skill": "good",
         # On a busy machine a page learns late that the tip rests, and captures late.
         "rest_s": 4.0,
@@ -178,14 +179,14 @@ def in_theatre(browser: Browser, server: RealServer, tablet: Tablet, sato: Watch
     arm(page)
     page.wait_for_function(HAS_ANGLE)
     expect(page.get_by_test_id("watching")).to_contain_text("Dr Sato")
-    page.screenshot(path=SCREENSHOTS / "three-theatre.png")
-    sato.page.screenshot(path=SCREENSHOTS / "three-supervisor.png")
+    save_screenshot(page, "three-theatre")
+    save_screenshot(sato.page, "three-supervisor")
     for _ in range(2):
         sato.page.get_by_test_id("hold-ask").click()
     expect(page.get_by_test_id("alarms")).to_contain_text("Dr Sato", timeout=PATIENCE_MS)
     tablet.tap("step-navigate")
     expect(tablet.page.get_by_test_id("alarms")).to_contain_text("Dr Sato", timeout=PATIENCE_MS)
-    page.screenshot(path=SCREENSHOTS / "three-hold.png")
+    save_screenshot(page, "three-hold")
     sato.page.get_by_test_id("hold-release").click()
     expect(sato.page.get_by_test_id("hold")).to_have_attribute("data-requested", "false", timeout=PATIENCE_MS)
     left(screen)

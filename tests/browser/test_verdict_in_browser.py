@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, WatchedPage, arm
+from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage, arm, save_screenshot
 
 pytestmark = pytest.mark.browser
 
@@ -46,11 +46,6 @@ def headline(page: Page, words: str | re.Pattern[str], tone: str | re.Pattern[st
     expect(page.get_by_test_id("verdict")).to_have_attribute("data-tone", tone)
 
 
-def keep(page: Page, name: str) -> None:
-    SCREENSHOTS.mkdir(exist_ok=True)
-    page.screenshot(path=SCREENSHOTS / f"verdict-{name}.png")
-
-
 def test_the_words_are_german_on_a_german_page(theatre: Theatre, watch: Watch) -> None:
     page = watch(theatre).open("/theatre?lang=de")
     theatre.tell("breach")
@@ -78,23 +73,23 @@ def page(screen: Page, shared_theatre: Theatre) -> Page:
 
 def test_a_breach_from_the_path_to_its_acknowledgement(page: Page, shared_theatre: Theatre) -> None:
     headline(page, "● ON PATH", "good")
-    keep(page, "on-path")
+    save_screenshot(page, "verdict-on-path")
     shared_theatre.tell("entry")
     headline(page, "▲ CORRECT 2.4 mm medial, 1.3 mm caudal", "caution")
     expect(page.get_by_test_id("headline-detail")).to_have_text("entry 2.7 mm, limit 1.8 mm")
     expect(page.locator("[data-reading=entry]")).to_have_attribute("data-status", "over")
-    keep(page, "entry-over")
+    save_screenshot(page, "verdict-entry-over")
     shared_theatre.tell("near")
     headline(page, "◆ NEAR MEDIAL WALL 0.5 mm", "warning")
     expect(page.get_by_test_id("alarm-top")).to_contain_text("0.5 mm to the medial wall, limit 1.0 mm.")
-    keep(page, "near")
+    save_screenshot(page, "verdict-near")
     shared_theatre.tell("breach")
     headline(page, "✖ THROUGH MEDIAL WALL 0.8 mm", "danger")
     alarm = page.get_by_test_id("alarm-top")
     expect(alarm).to_contain_text(
         "Drill 0.8 mm through the medial wall at 29.0 mm depth. Stop. Withdraw the drill."
     )
-    keep(page, "breach")
+    save_screenshot(page, "verdict-breach")
     shared_theatre.tell("hidden")
     expect(page.get_by_test_id("no-tracking")).to_contain_text("NO TRACKING")
     expect(alarm).to_contain_text(
@@ -102,7 +97,7 @@ def test_a_breach_from_the_path_to_its_acknowledgement(page: Page, shared_theatr
     )
     expect(alarm).to_contain_text("Stop.")
     expect(page.get_by_test_id("headline-event")).to_have_text("BREACH when last seen")
-    keep(page, "lost-in-a-breach")
+    save_screenshot(page, "verdict-lost-in-a-breach")
     shared_theatre.tell("path")
     headline(page, "▲ ON PATH", "caution")
     expect(page.get_by_test_id("alarms")).to_have_attribute("data-state", "latched")
@@ -117,11 +112,11 @@ def test_a_breach_from_the_path_to_its_acknowledgement(page: Page, shared_theatr
     unlit = "getComputedStyle(document.querySelector('.alarms-top .alarms-state')).backgroundColor"
     assert page.evaluate(unlit) == "rgba(0, 0, 0, 0)"
     headline(page, "▲ ON PATH", "caution")
-    keep(page, "over-not-acknowledged")
+    save_screenshot(page, "verdict-over-not-acknowledged")
     page.get_by_test_id("acknowledge").click()
     headline(page, "● ON PATH", "good")
     expect(page.get_by_test_id("headline-event")).to_have_text("")
-    keep(page, "acknowledged")
+    save_screenshot(page, "verdict-acknowledged")
 
 
 def test_a_breach_that_is_acknowledged_and_still_there_is_not_green(
@@ -133,7 +128,7 @@ def test_a_breach_that_is_acknowledged_and_still_there_is_not_green(
     expect(page.get_by_test_id("alarms")).to_have_attribute("data-state", "acknowledged")
     headline(page, "✖ THROUGH MEDIAL WALL 0.8 mm", "danger")
     expect(page.get_by_test_id("alarm-top")).to_contain_text("Drill 0.8 mm through the medial wall")
-    keep(page, "acknowledged-breach")
+    save_screenshot(page, "verdict-acknowledged-breach")
 
 
 def test_no_image_of_the_screen_contradicts_itself(page: Page, shared_theatre: Theatre) -> None:

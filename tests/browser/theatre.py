@@ -19,6 +19,12 @@ SCREENSHOTS = CHECKOUT / ".screenshots"
 PATIENCE_MS = 30_000
 
 
+def save_screenshot(page: Page, name: str, *, is_full_page: bool = False) -> None:
+    """Save what the page shows in `.screenshots`, except in the gate, where nobody looks at it."""
+    if not os.environ.get("CI"):
+        page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=is_full_page, animations="disabled")
+
+
 class Theatre:
     """The server process of `fake_server.py`; its feeder takes orders."""
 

@@ -130,14 +130,13 @@ class Patient:
 
     def hold(self, path: str, landmark: str, *, off_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Any:  # noqa: ANN401  JSON
         """Hold the tip on a landmark until the running capture ends; return the session's state."""
-        reported: Any = None
+        reported: Any = self.server.ask("GET", path, 200)
         for _ in range(100):
-            before = self.server.ask("GET", path, 200)["capture"]
-            if before["state"] != "looking":
+            if reported["capture"]["state"] != "looking":
                 break
             self.show(self.tip_on(landmark, off_mm=off_mm))
 
-            def looked_at(images: int = before["images"]) -> bool:
+            def looked_at(images: int = reported["capture"]["images"]) -> bool:
                 nonlocal reported
                 reported = self.server.ask("GET", path, 200)
                 return bool(

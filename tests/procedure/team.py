@@ -4,9 +4,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import cv2
 import numpy as np
 
-from server.config import Config, RehearsalEventConfig
+from server.config import Config, RehearsalConfig, RehearsalEventConfig
 from server.theatre import theatre_from_config
 from tests.procedure.real_server import RealServer
 from tracker.geometry import Rigid, Tool, Vertebra
@@ -14,6 +15,7 @@ from tracker.navigation import Deviation
 from tracker.navigation.deviation import deviation_from_channel
 from tracker.plan import Channel
 from tracker.rehearsal import Theatre, Truth
+from tracker.rehearsal.boards import HOLD_S, MOVE_S, PLACES
 
 BY = {"made_by": "M. Ito"}
 DRILL = {"tool": "drill"}
@@ -25,6 +27,13 @@ BOARD = {
     "fiducials": [31, 38, 60, 101, 108],
 }
 POINTS, CHECK = "/api/registration/points", "/api/registration/check"
+
+
+def board_images(rehearsal: RehearsalConfig) -> list[bytes]:
+    """JPEG files of the board at each of its positions before the camera of this rehearsal."""
+    renderer = theatre_from_config(rehearsal.model_copy(update={"scene": "board"})).renderer()
+    times_s = [place * (HOLD_S + MOVE_S) + HOLD_S / 2.0 for place in range(len(PLACES))]
+    return [cv2.imencode(".jpg", renderer.image_at(at_s))[1].tobytes() for at_s in times_s]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,13 +99,16 @@ class Team:
         return "" if moment is None else str(moment["touched"])
 
     def calibrate_camera(self) -> dict[str, Any]:
-        """Collect views of a moving board until there are enough."""
+        """Collect two views of a moving board, send images of all its positions, and calibrate."""
         self.play("board")
         self.server.ask("POST", "/api/camera/collection", 201, json={"board": BOARD})
         self.server.until(
-            "enough views of the board",
-            lambda: not self.server.ask("GET", "/api/camera/collection", 200)["missing"],
+            "two views of the board",
+            lambda: len(self.server.ask("GET", "/api/camera/collection", 200)["views"]) >= 2,
         )
+        for image in board_images(self.config.rehearsal):
+            collection = self.server.ask("POST", "/api/camera/collection/images", 201, content=image)
+        assert not collection["missing"]
         report = self.server.done(self.server.ask("POST", "/api/camera/calibration", 202, json=BY))
         self.server.until(
             "images taken with the calibrated camera",

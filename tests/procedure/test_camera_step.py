@@ -59,8 +59,11 @@ def test_a_camera_from_sent_images_is_the_true_one_and_is_used_at_once(server: S
         )
     assert len(reported["views"]) == len(images)
     assert reported["missing"] == []
+    assert reported["running"]
     job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
     assert job["state"] == "done", job["problem"]
+    # It detects no board while others navigate.
+    assert not server.ask("GET", "/api/camera/collection", 200)["running"]
     report = job["result"]
     assert report["rms_px"] < 0.1
     assert sum(view["used"] for view in report["views"]) == len(images)

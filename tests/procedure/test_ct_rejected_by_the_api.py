@@ -150,10 +150,14 @@ def sent_and_begun(server: Server) -> Any:  # noqa: ANN401  JSON
     return begun
 
 
-def test_reading_is_cancelled_in_the_middle(server: Server) -> None:
+def test_a_first_slice_is_shown_before_the_ct_and_reading_is_cancelled_in_the_middle(server: Server) -> None:
     opened(server)
     before = stored(server)
     begun = sent_and_begun(server)
+    shown = server.door.get(f"/api/ct/uploads/{begun['upload_id']}/preview.png")
+    assert server.jobs.get(begun["id"]).state is JobState.RUNNING
+    assert shown.status_code == 200
+    assert shown.content.startswith(b"\x89PNG")
     assert any(path.suffix == ".partial" for path in leftovers(server))
     over = server.ask("DELETE", f"/api/jobs/{begun['id']}", 200)
     assert over["state"] == "cancelled"
@@ -176,17 +180,6 @@ def test_the_process_that_reads_is_killed(server: Server) -> None:
     assert job["problem"]["code"] == "JOB_ENDED"
     assert leftovers(server) == []
     assert sent(server, dicom_zip())["state"] == "done"
-
-
-def test_a_first_slice_is_there_before_the_ct(server: Server) -> None:
-    opened(server)
-    begun = sent_and_begun(server)
-    shown = server.door.get(f"/api/ct/uploads/{begun['upload_id']}/preview.png")
-    state = server.jobs.get(begun["id"]).state
-    assert shown.status_code == 200
-    assert shown.content.startswith(b"\x89PNG")
-    assert state is JobState.RUNNING
-    server.ask("DELETE", f"/api/jobs/{begun['id']}", 200)
 
 
 def test_an_invalid_name_is_rejected_before_anything_is_done(server: Server) -> None:

@@ -8,7 +8,7 @@ from tests.benchmarks.scenes.rigs import RIGS
 from tests.tracker.levels import SEED
 
 # A sample; the benchmark searches more.
-EMPTY_IMAGES = {"A": 4, "B": 2}
+EMPTY_IMAGES = {"A": 2, "B": 1}
 
 
 @pytest.mark.parametrize("rig", EMPTY_IMAGES)

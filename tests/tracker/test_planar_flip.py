@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.tracker.rehearsal.stills import STILLS
 from tracker import Seen, Tracker
 from tracker.rehearsal import Theatre, TheatreSettings
 
@@ -19,7 +20,7 @@ from tracker.rehearsal import Theatre, TheatreSettings
 def test_a_jump_farther_than_the_reach_does_not_end_in_the_mirrored_pose(seed: int, rate_hz: float) -> None:
     # Few images a second while the hand speeds up: the marker is six to ten pixels from where it is expected.
     theatre = Theatre(TheatreSettings(seed=seed))
-    renderer = theatre.renderer()
+    renderer = theatre.renderer(store=STILLS)
     tracker = Tracker(camera=theatre.camera, models=[theatre.marker])
     tip_in_marker_mm = theatre.tool.marker_from_tool.translation_mm
     for number in range(round(28.5 * rate_hz), round(31.5 * rate_hz) + 1):

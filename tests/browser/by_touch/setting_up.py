@@ -3,13 +3,11 @@
 import re
 from collections.abc import Sequence
 
-import cv2
 from playwright.sync_api import FilePayload, expect
 
 from server.config import RehearsalConfig
-from server.theatre import theatre_from_config
 from tests.browser.by_touch.tablet import Tablet
-from tracker.rehearsal.boards import HOLD_S, MOVE_S, PLACES
+from tests.procedure.team import board_images
 
 
 def open_case(tablet: Tablet, name: str) -> None:
@@ -35,16 +33,10 @@ def play(tablet: Tablet, scene: str) -> None:
 
 
 def board_views(rehearsal: RehearsalConfig) -> list[FilePayload]:
-    """Image files of all positions of the board, before the camera of this rehearsal."""
-    renderer = theatre_from_config(rehearsal.model_copy(update={"scene": "board"})).renderer()
-    times_s = [place * (HOLD_S + MOVE_S) + HOLD_S / 2.0 for place in range(len(PLACES))]
+    """Image files of all positions of the board."""
     return [
-        {
-            "name": f"view-{place}.jpg",
-            "mimeType": "image/jpeg",
-            "buffer": cv2.imencode(".jpg", renderer.image_at(at_s))[1].tobytes(),
-        }
-        for place, at_s in enumerate(times_s)
+        {"name": f"view-{place}.jpg", "mimeType": "image/jpeg", "buffer": image}
+        for place, image in enumerate(board_images(rehearsal))
     ]
 
 

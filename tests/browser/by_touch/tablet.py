@@ -1,6 +1,5 @@
 """A tablet page under test: taps, reads, and records targets that are too small for a glove."""
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -8,7 +7,7 @@ from typing import Any
 
 from playwright.sync_api import Browser, Page, ViewportSize, expect
 
-from tests.browser.theatre import SCREENSHOTS, WatchedPage
+from tests.browser.theatre import WatchedPage, save_screenshot
 
 LANDSCAPE: ViewportSize = {"width": 1280, "height": 800}
 UPRIGHT: ViewportSize = {"width": 800, "height": 1280}
@@ -71,11 +70,9 @@ class Tablet:
 
     def looked_at(self, name: str) -> None:
         """Record small targets and overflow at each screen size, with screenshots."""
-        SCREENSHOTS.mkdir(exist_ok=True)
         for size, way in ((PHONE, "phone"), (UPRIGHT, "upright"), (LANDSCAPE, "landscape")):
             self.page.set_viewport_size(size)
-            if not os.environ.get("CI"):
-                self.page.screenshot(path=SCREENSHOTS / f"operator-{name}-{way}.png", full_page=True)
+            save_screenshot(self.page, f"operator-{name}-{way}", is_full_page=True)
             self.faults.extend(f"{name}, {way}: small: {one}" for one in self.page.evaluate(SMALL_TARGETS))
             if self.page.evaluate(WIDER_THAN_SCREEN):
                 self.faults.append(f"{name}, {way}: wider than the screen")

@@ -67,14 +67,6 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
         )
         assert entry is not None
         case = create_case(found[1], entry[1])
-        second = subprocess.run(
-            [sys.executable, "-m", "server", "run", "--source", "v.avi", "--port", "0"],
-            cwd=tmp_path,
-            env={**os.environ, "PYTHONPATH": str(REPOSITORY), "COAXIAL_HOME": str(tmp_path / "home")},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
         os.killpg(server.pid, ending)
         out, err = server.communicate(timeout=60)
     assert server.returncode == 0, err
@@ -83,8 +75,20 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
     assert "leaked" not in err
     assert '"level": "error"' not in err
     assert entry[1].partition("#")[2] not in err, "what opens the door is in no log"
+    with Home(tmp_path / "home") as home, CaseStore(home) as store:
+        assert [(stored.id, stored.name) for stored in store.list()] == [(case, "one")]
+
+
+def test_a_second_server_with_the_same_folder_does_not_start(tmp_path: Path) -> None:
+    with Home(tmp_path / "home"):
+        second = subprocess.run(
+            [sys.executable, "-m", "server", "run", "--port", "0"],
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONPATH": str(REPOSITORY), "COAXIAL_HOME": str(tmp_path / "home")},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
     assert second.returncode == 2
     assert f"another Coaxial is running with the folder {tmp_path / 'home'}" in second.stderr
     assert "Traceback" not in second.stderr
-    with Home(tmp_path / "home") as home, CaseStore(home) as store:
-        assert [(stored.id, stored.name) for stored in store.list()] == [(case, "one")]

@@ -6,9 +6,6 @@ import numpy as np
 import pytest
 
 from tests.benchmarks.calibration.cameras import BOARD, KnownCamera, known_camera, seen_view
-from tests.real_data import real_data_file
-from tests.tracker.camera.test_real_calibration import seen
-from tracker.camera import CheckerBoard
 from tracker.camera.calibration import CalibrationReport, calibrate
 from tracker.camera.detection import BoardView
 
@@ -36,18 +33,3 @@ def test_a_second_camera_of_one_make_is_reported_with_its_images(seed: int) -> N
     assert "4 of 13 views (b0, b1, b2, b3) fit a separate camera clearly better" in message
     # The same camera alone, with as many views.
     assert reported(calibrate(views_of(one, 13, rng), size_wh_px=size)) == []
-
-
-def test_two_cameras_of_a_real_pair_are_reported_and_one_alone_is_not() -> None:
-    folder = real_data_file("calibration", "checkerboard-stereo")
-    board = CheckerBoard(columns=9, rows=6, square_mm=25.0)
-    both = []
-    for side in ("left", "right"):
-        found, size = seen(folder, f"{side}*.jpg", board)
-        views = [one for one in found if isinstance(one, BoardView)]
-        assert reported(calibrate(views, size_wh_px=size)) == []
-        both += views[: 10 if side == "left" else 5]
-    report = calibrate(both, size_wh_px=size)
-    assert report.rms_px < 0.23
-    (message,) = reported(report)
-    assert "5 of 15 views (11, 12, 13, 14 and 1 more)" in message

@@ -12,26 +12,28 @@ from tracker.camera.calibration import CalibrationReport, calibrate
 from tracker.camera.detection import BoardNotFound, BoardView, find_board
 from tracker.camera.rig import calibrate_rig
 
+Found = list[BoardView | BoardNotFound]
+Calibrated = tuple[Found, CalibrationReport]
 
-def seen(folder: Path, pattern: str, board: Board) -> tuple[list[BoardView | BoardNotFound], tuple[int, int]]:
+
+def calibrated(folder: Path, pattern: str, board: Board) -> Calibrated:
     images = [np.asarray(cv2.imread(str(file)), dtype=np.uint8) for file in sorted(folder.glob(pattern))]
     assert images
     found = [find_board(image, board) for image in images]
-    return found, (images[0].shape[1], images[0].shape[0])
-
-
-def calibrated(
-    folder: Path, pattern: str, board: Board
-) -> tuple[list[BoardView | BoardNotFound], CalibrationReport]:
-    found, size = seen(folder, pattern, board)
+    size = (images[0].shape[1], images[0].shape[0])
     return found, calibrate([one for one in found if isinstance(one, BoardView)], size_wh_px=size)
 
 
-def test_a_stereo_pair_of_checkerboards() -> None:
+@pytest.fixture(scope="module")
+def stereo_pair() -> dict[str, Calibrated]:
     folder = real_data_file("calibration", "checkerboard-stereo")
     board = CheckerBoard(columns=9, rows=6, square_mm=1.0)
-    left, left_report = calibrated(folder, "left*.jpg", board)
-    right, right_report = calibrated(folder, "right*.jpg", board)
+    return {side: calibrated(folder, f"{side}*.jpg", board) for side in ("left", "right")}
+
+
+def test_a_stereo_pair_of_checkerboards(stereo_pair: dict[str, Calibrated]) -> None:
+    left, left_report = stereo_pair["left"]
+    right, right_report = stereo_pair["right"]
     assert left_report.views_used == right_report.views_used == 13
     assert left_report.rms_px <= 0.195
     assert right_report.rms_px <= 0.207
@@ -45,6 +47,23 @@ def test_a_stereo_pair_of_checkerboards() -> None:
     assert rig.rms_px <= 0.217
     assert rig.cameras[1].baseline_mm == pytest.approx(3.328, abs=0.02)
     assert 0.0005 < rig.cameras[1].baseline_sd_mm < 0.02
+
+
+def test_two_cameras_of_the_pair_are_reported_and_one_alone_is_not(
+    stereo_pair: dict[str, Calibrated],
+) -> None:
+    views = {
+        side: [one for one in found if isinstance(one, BoardView)] for side, (found, _) in stereo_pair.items()
+    }
+    report = calibrate([*views["left"][:10], *views["right"][:5]], size_wh_px=(640, 480))
+    assert report.rms_px < 0.23
+    (message,) = messages_of_two_cameras(report)
+    assert "5 of 15 views (11, 12, 13, 14 and 1 more)" in message
+    assert [messages_of_two_cameras(one) for _, one in stereo_pair.values()] == [[], []]
+
+
+def messages_of_two_cameras(report: CalibrationReport) -> list[str]:
+    return [one.message for one in report.warnings if one.code == "TWO_CAMERAS"]
 
 
 def test_a_machined_dot_grid() -> None:

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from tests.tracker.rehearsal.stills import STILLS
 from tracker.geometry import Array
 from tracker.rehearsal import Event, EventKind, Renderer, Skill, Theatre, TheatreSettings, strips
 from tracker.rehearsal.point_spread import DEFOCUS_PX, EXPOSURE_S, MAX_EXPOSURE_S, point_spread
@@ -30,7 +31,7 @@ def staged(
         events=events,
     )
     theatre = Theatre(settings)
-    renderer = theatre.renderer()
+    renderer = theatre.renderer(store=STILLS)
     assert isinstance(renderer, Renderer)
     return theatre, renderer
 
@@ -161,7 +162,7 @@ def test_fewer_samples_are_taken_only_where_blur_hides_their_softness() -> None:
 
 def test_a_drill_that_leaves_the_image_is_drawn_at_every_place() -> None:
     theatre = Theatre(TheatreSettings(seed=1))
-    renderer = theatre.renderer()
+    renderer = theatre.renderer(store=STILLS)
     for number in range(285, 316):
         image = renderer.image_at(number / 10.0)
         assert image.shape == (720, 1280, 3)

@@ -6,6 +6,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
+from tests.tracker.rehearsal.stills import STILLS
 from tracker.errors import InvalidInput
 from tracker.geometry import angle_between_deg
 from tracker.pipeline import Tracker
@@ -21,7 +22,7 @@ AT_S = 20.0
 def eventful(*events: Event, seed: int = 1) -> tuple[Theatre, Renderer]:
     settings = TheatreSettings(seed=seed, size_wh_px=SIZE, skill=Skill.GOOD, reference=True, events=events)
     theatre = Theatre(settings)
-    renderer = theatre.renderer()
+    renderer = theatre.renderer(store=STILLS)
     assert isinstance(renderer, Renderer)
     return theatre, renderer
 

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from tests.tracker.rehearsal.stills import STILLS
 from tracker.geometry import Array
 from tracker.rehearsal import Renderer, Theatre, TheatreSettings, Truth
 
@@ -26,7 +27,7 @@ def staged(
     theatre = Theatre(
         TheatreSettings(seed=seed, size_wh_px=size, noise=noise, blur=blur, clutter=clutter, light=light)
     )
-    renderer = theatre.renderer()
+    renderer = theatre.renderer(store=STILLS)
     assert isinstance(renderer, Renderer)
     return theatre, renderer
 

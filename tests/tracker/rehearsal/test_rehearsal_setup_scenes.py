@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
+from tests.tracker.rehearsal.stills import STILLS
 from tracker.camera import Board, CharucoBoard, CheckerBoard, DotBoard
 from tracker.camera.board_collector import BoardCollector
 from tracker.camera.detection import BoardView, find_board
@@ -22,7 +23,7 @@ def board_theatre(kind: BoardKind) -> tuple[Theatre, BoardRenderer]:
     # In a smaller image OpenCV finds all ChArUco markers only by chance, however it is rendered.
     size = (1280, 720) if kind is BoardKind.CHARUCO else SIZE
     theatre = Theatre(TheatreSettings(seed=4, size_wh_px=size, scene=Scene.BOARD, board=kind))
-    renderer = theatre.renderer()
+    renderer = theatre.renderer(store=STILLS)
     assert isinstance(renderer, BoardRenderer)
     return theatre, renderer
 

@@ -12,7 +12,8 @@ from tracker.camera.detection.lattice import Cells, lattices, step_lengths_px
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, PlacementAmbiguity
 from tracker.geometry import Array
 
-SECTOR_FLAGS = cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_EXHAUSTIVE | cv2.CALIB_CB_ACCURACY
+# Without CALIB_CB_ACCURACY, which enlarges the image to place corners that `refined` places afterwards.
+SECTOR_FLAGS = cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_EXHAUSTIVE
 QUAD_FLAGS = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_FAST_CHECK
 MIN_CORNERS = 12
 ENLARGEMENT, MAX_ENLARGED_PX = 1.5, 2_000_000

@@ -113,20 +113,17 @@ def _basis_at(points_px: Array, tree: "scipy.spatial.KDTree", seed: int) -> tupl
     """Return two basis steps from a point to neighbours that also exist in the opposite direction."""
     here = points_px[seed]
     _, near = tree.query(here, k=min(NEIGHBOURS, len(points_px)))
-    steps: list[Array] = []
-    for other in near[1:]:
-        step = points_px[other] - here
-        length = float(np.linalg.norm(step))
-        back, _ = tree.query(here - step)
-        if length < 2.0 or back > STEP_TOLERANCE_RATIO * length:
-            continue
-        if not steps:
-            steps.append(step)
-            continue
-        sine = abs(steps[0][0] * step[1] - steps[0][1] * step[0]) / (float(np.linalg.norm(steps[0])) * length)
-        if sine > MIN_ANGLE_SINE:
-            return steps[0], step
-    return None
+    steps = points_px[near[1:]] - here
+    lengths_px = np.linalg.norm(steps, axis=1)
+    # One query of all, because a query costs more than its points.
+    back_px, _ = tree.query(here - steps)
+    is_regular = (lengths_px >= 2.0) & (back_px <= STEP_TOLERANCE_RATIO * lengths_px)
+    steps, lengths_px = steps[is_regular], lengths_px[is_regular]
+    if not len(steps):
+        return None
+    sines = np.abs(steps[0, 0] * steps[:, 1] - steps[0, 1] * steps[:, 0]) / (lengths_px[0] * lengths_px)
+    crossing = np.flatnonzero(sines > MIN_ANGLE_SINE)
+    return (steps[0], steps[crossing[0]]) if crossing.size else None
 
 
 def _grown(
@@ -143,14 +140,15 @@ def _grown(
     while queue:
         cell = queue.popleft()
         here = points_px[place[cell]]
-        for direction in DIRECTIONS:
+        ways = [way for way in DIRECTIONS if (cell[0] + way[0], cell[1] + way[1]) not in place]
+        if not ways:
+            continue
+        expected = np.array(ways) @ np.array(steps[cell])
+        distances_px, nearest = tree.query(here + expected)
+        is_near = distances_px <= STEP_TOLERANCE_RATIO * np.linalg.norm(expected, axis=1)
+        for direction, found, near in zip(ways, nearest.tolist(), is_near, strict=True):
             target = (cell[0] + direction[0], cell[1] + direction[1])
-            if target in place:
-                continue
-            expected = direction[0] * steps[cell][0] + direction[1] * steps[cell][1]
-            distance, found = tree.query(here + expected)
-            found = int(found)
-            if distance > STEP_TOLERANCE_RATIO * float(np.linalg.norm(expected)) or found in owner:
+            if not near or found in owner:
                 continue
             place[target], owner[found] = found, target
             step = points_px[found] - here
