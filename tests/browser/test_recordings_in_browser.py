@@ -144,7 +144,7 @@ def test_the_3d_scene_shows_the_displayed_instant(supervised: Supervised, watch:
     stage = page.get_by_test_id("review-scene-stage")
     expect(stage).to_have_attribute("data-live", "true")
     stage.scroll_into_view_if_needed()
-    picture(page, "review-scene")
+    save_screenshot(page, "recording-review-scene")
     before = stage.screenshot()
     page.get_by_test_id("review-events").get_by_role("button", name="Alarm · BREACH").click()
     expect(page.get_by_test_id("review-wall")).to_have_text(re.compile(r"^−\d\.\d$"))
