@@ -361,7 +361,9 @@ class RecordingConfig(Section):
     when: Literal["navigating", "manual", "never"] = "manual"
     """navigating: from the first figures until navigation ends or the case is closed; manual: on request."""
     max_total_gb: Annotated[float, Field(gt=0.0, le=100_000.0)] = 200
-    """Limit for all recordings of all cases; a recording that would exceed it is stopped; none is deleted."""
+    """Limit for all recordings of all cases; a recording that would exceed it is stopped."""
+    rotate: bool = False
+    """Before a recording, delete the oldest unprotected ones until a fifth of max_total_gb is free."""
     min_free_gb: Annotated[float, Field(ge=0.0, le=100_000.0)] = 2
     """Free space on the disk at which a recording is stopped."""
     consent: Literal["required", "not_required"] = "required"

@@ -37,13 +37,15 @@ class RecordedEventMessage(Message):
     """An event or a period of a recording."""
 
     kind: EventKind | Literal["comment"]
-    """navigation: navigation was on; withheld: no figures; note: a remark on the recording itself."""
+    """navigation: navigation was on; withheld: no figures; step: a new document of the case; note: a remark
+    on the recording itself."""
     from_s: float
     """Time since the first image, like all times here."""
     to_s: float | None
     """null for an event without duration."""
     code: str
-    """Condition of an alarm, reason of withheld figures, code of a note, shape of a mark, id of a comment."""
+    """Condition of an alarm, reason of withheld figures, code of a note, shape of a mark, kind of a document,
+    id of a comment."""
     title: TextMessage | None
     """Title of an alarm or of withheld figures, in capitals; text of a comment; otherwise null."""
     priority: Priority | None

@@ -12,7 +12,9 @@ from server.config import Config
 from server.number_format import finite
 from server.recording_file.topics import FORMAT_VERSION
 from server.stream.message import Message
+from server.stream.pose_messages import PoseMessage
 from tracker.camera import CameraControl
+from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import (
     Alarm,
     AlarmSnapshot,
@@ -22,6 +24,7 @@ from tracker.navigation.alarms import (
     Presence,
     Sound,
 )
+from tracker.pose import Seen
 
 # Libraries on which the last digits of a pose depend.
 LIBRARIES = ("numpy", "opencv-python-headless", "numba", "scipy")
@@ -58,6 +61,22 @@ class TrackedMessage(Message):
     """Identity of the camera; empty if unknown."""
     is_predicted: bool
     """Whether the image was decoded from video with predicted images, such as H.264."""
+
+
+class MarkerPoseMessage(Message):
+    """Pose of a marker in the camera's frame."""
+
+    marker: str
+    camera_from_marker: PoseMessage
+    covariance: list[list[float]]
+    """6 rows of 6: translation [mm], then a small left-multiplied rotation vector in the camera's frame [rad]."""
+
+
+class PosesMessage(Message):
+    """Poses of the markers that were seen in one image; empty without a calibrated camera."""
+
+    image_number: int
+    poses: list[MarkerPoseMessage]
 
 
 class CircumstancesMessage(Message):
@@ -207,6 +226,27 @@ def alarm_step_message(step: AlarmStep, picture: AlarmSnapshot) -> AlarmStepMess
             )
             for event in picture.events
         ],
+    )
+
+
+def poses_message(snapshot: NavigationSnapshot) -> PosesMessage:
+    """Return the poses of the markers in an image."""
+    seen = {name: one for name, one in snapshot.sightings.items() if isinstance(one, Seen)}
+    return PosesMessage(
+        image_number=snapshot.image_number,
+        poses=[
+            MarkerPoseMessage(
+                marker=name,
+                camera_from_marker=PoseMessage(
+                    rotation=one.camera_from_marker.rotation.tolist(),
+                    translation_mm=one.camera_from_marker.translation_mm.tolist(),
+                ),
+                covariance=one.pose_covariance.tolist(),
+            )
+            for name, one in seen.items()
+        ]
+        if snapshot.setup.camera_calibrated
+        else [],
     )
 
 

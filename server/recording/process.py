@@ -32,10 +32,12 @@ from server.recording.messages import (
     AlarmStepMessage,
     DocumentsMessage,
     NoteMessage,
+    PosesMessage,
     SessionMessage,
     TrackedMessage,
     alarm_step_message,
     controls_message,
+    poses_message,
 )
 from server.recording_file import ImagePacker, RecordingWriter, Topic, WriterLimits, encoded_value
 from server.recording_file.writer import compressed_json
@@ -154,6 +156,7 @@ ToServer: TypeAlias = StateNeeded | AlarmsNeeded | RecordingStatus
 SCHEMAS: dict[Topic, type[Message]] = {
     Topic.SESSION: SessionMessage,
     Topic.TRACKED: TrackedMessage,
+    Topic.POSES: PosesMessage,
     Topic.SNAPSHOT: SnapshotMessage,
     Topic.SOURCE: SourceMessage,
     Topic.ALARM_STEP: AlarmStepMessage,
@@ -421,11 +424,13 @@ class Recording:
             is_predicted=report.is_predicted,
         ).model_dump_json()
         packed = self._packer.pack(image, entry.encoded)
+        poses = poses_message(snapshot).model_dump_json()
         text = snapshot_message(snapshot).model_dump_json()
 
         def write() -> None:
             self._writer.add_json(Topic.TRACKED, at_s, tracked, sequence=number)
             self._writer.add_image(packed, number=number, at_s=at_s)
+            self._writer.add_json(Topic.POSES, at_s, poses, sequence=number)
             self._writer.add_json(Topic.SNAPSHOT, at_s, text, sequence=number)
 
         self._images += 1

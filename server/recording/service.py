@@ -43,6 +43,8 @@ from server.store.home import PRIVATE, RECORDINGS, sync_file, sync_folder
 NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
 TIME_FORMAT = "%Y%m%dT%H%M%SZ"
 PROTECTED = ".protected"
+# Rotation leaves a fifth of the budget for the new recording.
+MAX_KEPT_RATIO = 0.8
 EXPORTS = ".exports"
 POLL_S = 0.25
 # Waiting time after a failure, instead of an attempt at each of the four polls per second.
@@ -354,13 +356,29 @@ class RecordingService:
                     "Remove its protection first, if it is no longer needed.",
                     {"name": name},
                 )
-            path.unlink()
-            self._durations.pop(path, None)
-            # Including the remains of a killed job.
-            for index in path.parent.glob(f"{index_path(path).name}*"):
-                index.unlink(missing_ok=True)
-            shutil.rmtree(exports_folder(path), ignore_errors=True)
-            sync_folder(path.parent)
+            self._delete_file(path)
+
+    def _delete_file(self, path: Path) -> None:
+        path.unlink()
+        self._durations.pop(path, None)
+        # Including the remains of a killed job.
+        for index in path.parent.glob(f"{index_path(path).name}*"):
+            index.unlink(missing_ok=True)
+        shutil.rmtree(exports_folder(path), ignore_errors=True)
+        sync_folder(path.parent)
+
+    def _rotate(self) -> None:
+        """Delete the oldest unprotected recordings of all cases, until enough of the budget is free."""
+        max_bytes = MAX_KEPT_RATIO * self._config.recording.max_total_gb * 1e9
+        paths = self._store.home.cases.glob(f"*/{RECORDINGS}/*{SUFFIX}")
+        # Names begin with the time.
+        for path in sorted(paths, key=lambda path: path.name):
+            if self._total_bytes() <= max_bytes:
+                return
+            if path.name not in self._closing and not _protection(path).exists():
+                log.warning("a recording was deleted by rotation", file=path.name, case=path.parents[1].name)
+                with suppress(FileNotFoundError):
+                    self._delete_file(path)
 
     def put_export(self, recording: Path, made: Path) -> Path:
         """Move an exported file beside its recording, replacing the previous one; return its path.
@@ -417,6 +435,8 @@ class RecordingService:
                 "State it on the operator's page, or with POST /api/recordings/consent.",
             )
         folder = self._folder(case)
+        if settings.rotate:
+            self._rotate()
         left_bytes = settings.max_total_gb * 1e9 - self._total_bytes()
         if left_bytes <= 0.0:
             raise RecordingError(

@@ -37,7 +37,7 @@ MIN_WITHHELD_S = 0.3
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Integers: TypeAlias = npt.NDArray[np.int64]
-EventKind: TypeAlias = Literal["navigation", "withheld", "alarm", "acknowledgement", "mark", "note"]
+EventKind: TypeAlias = Literal["navigation", "withheld", "alarm", "acknowledgement", "mark", "step", "note"]
 Report: TypeAlias = Callable[[float, str], None]
 Json: TypeAlias = Any
 Stored = TypeVar("Stored", "RecordingIndex", "RecordingSummary")
@@ -48,10 +48,11 @@ class TimelineEvent:
     """An event or a period of a recording.
 
     Attributes:
-        kind: navigation (it was on), withheld (no figures), alarm, acknowledgement, mark, note (on the
-            recording itself).
+        kind: navigation (it was on), withheld (no figures), alarm, acknowledgement, mark, step (a new
+            document of the case), note (on the recording itself).
         from_s, to_s: Time since the first image; to_s is None for an event without duration.
-        code: Condition of an alarm, reason of withheld figures, code of a note, shape of a mark.
+        code: Condition of an alarm, reason of withheld figures, code of a note, shape of a mark, kind of a
+            document.
         by: Person who caused it; empty if nobody did.
     """
 
@@ -223,6 +224,7 @@ def make_index(path: Path, report: Report = lambda _ratio, _doing: None) -> Reco
                     rows.states.append((len(rows.pairs), location.offset, location.length))
                 case Topic.DOCUMENTS:
                     rows.documents.append((len(rows.pairs), location.offset, location.length))
+                    events.add_documents(location.unix_s, _json(file, location))
                 case _:  # only a replay reads these
                     pass
     return rows.index(events, is_whole=locations.is_whole)
@@ -313,6 +315,7 @@ class _Events:
         self._open: dict[int, tuple[float, str]] = {}
         self._alarms: list[tuple[float, float | None, str]] = []
         self._last_note_s: dict[str, float] = {}
+        self._document_ids: set[str] | None = None
         self._has_steps = False
 
     def add_step(self, unix_s: float, step: Json) -> None:
@@ -351,6 +354,23 @@ class _Events:
                     kind="mark", from_s=unix_s, code=str(drawn.get("shape", "")), by=str(mark.get("by", ""))
                 )
             )
+
+    def add_documents(self, unix_s: float, content: Json) -> None:
+        """Add a step for each document that was not in use before; those at the start are none."""
+        documents = [one for one in content.get("documents", []) if "id" in one]
+        known = self._document_ids
+        self._document_ids = {one["id"] for one in documents} | (known or set())
+        if known is not None:
+            self._moments += [
+                TimelineEvent(
+                    kind="step",
+                    from_s=unix_s,
+                    code=str(one.get("kind", "")),
+                    by=str(one.get("made_by", "")),
+                )
+                for one in documents
+                if one["id"] not in known
+            ]
 
     def add_note(self, unix_s: float, note: Json) -> None:
         code = str(note.get("code", ""))

@@ -6,6 +6,7 @@ from multiprocessing import Pipe
 from pathlib import Path
 
 import cv2
+import numpy as np
 import pytest
 
 from server.alarms import alarm_limits
@@ -46,6 +47,26 @@ def test_the_file_has_poses_transitions_and_acknowledgements(recorded: Path) -> 
     changes = [(event["change"], event["condition"], event["by"]) for event in events]
     assert ("raised", "DRILL_UNSEEN", "") in changes
     assert ("acknowledged", "DRILL_UNSEEN", "Anna") in changes
+
+
+def test_the_file_has_the_poses_of_the_markers_with_their_covariances(recorded: Path) -> None:
+    messages = list(RecordingReader(recorded).messages())
+    poses = [message.json() for message in messages if message.topic is Topic.POSES]
+    snapshots = [message.json() for message in messages if message.topic is Topic.SNAPSHOT]
+    assert [one["image_number"] for one in poses] == [one["image_number"] for one in snapshots]
+    seen = [one["poses"] for one in poses]
+    assert {pose["marker"] for one in seen for pose in one} == {"drill", "reference"}
+    # The images without markers.
+    assert [] in seen
+    for one, snapshot in zip(seen, snapshots, strict=True):
+        shown = {marker["name"]: marker["sighting"] for marker in snapshot["markers"]}
+        for pose in one:
+            wire = shown[pose["marker"]]["camera_from_marker"]
+            exact = pose["camera_from_marker"]
+            assert exact["translation_mm"] == pytest.approx(wire["translation_mm"], abs=1e-3)
+            covariance = np.array(pose["covariance"])
+            assert np.array_equal(covariance, covariance.T)
+            assert np.linalg.eigvalsh(covariance).min() > 0.0
 
 
 def test_a_changed_threshold_of_an_alarm_names_the_image(recorded: Path) -> None:

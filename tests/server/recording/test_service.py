@@ -112,6 +112,36 @@ def test_only_an_unprotected_recording_that_has_ended_is_deleted(store: CaseStor
             theatre.service.path(other)
 
 
+def test_rotation_deletes_the_oldest_unprotected_recordings_of_all_cases(store: CaseStore) -> None:
+    theatre = made(store, rotate=True, max_total_gb=1e-6)
+    theatre.open_a_case()
+    case = store.get_open_case()
+    assert case is not None
+    names = [f"2026010{day}T000000Z-0000.mcap" for day in (1, 2, 3, 4)]
+    folders = [store.home.cases / one / "recordings" for one in (case.id, store.create("another").id)]
+    for number, name in enumerate(names):
+        folders[number % 2].mkdir(parents=True, exist_ok=True)
+        (folders[number % 2] / name).write_bytes(b"x" * 300)
+    theatre.service.protect(names[0], is_protected=True)
+    theatre.service.start()
+    left = {path.name for folder in folders for path in folder.glob("2026010*.mcap")}
+    # The second and the third are the oldest without protection; 0.8 kB may stay.
+    assert left == {names[0], names[3]}
+
+
+def test_without_rotation_a_used_up_budget_rejects_a_recording(store: CaseStore) -> None:
+    theatre = made(store, max_total_gb=1e-6)
+    theatre.open_a_case()
+    case = store.get_open_case()
+    assert case is not None
+    folder = store.home.cases / case.id / "recordings"
+    folder.mkdir(parents=True)
+    (folder / "20260101T000000Z-0000.mcap").write_bytes(b"x" * 1001)
+    with pytest.raises(RecordingError, match="have reached"):
+        theatre.service.start()
+    assert (folder / "20260101T000000Z-0000.mcap").exists()
+
+
 def test_a_recording_that_cannot_go_on_raises_an_alarm_until_it_is_stopped(store: CaseStore) -> None:
     theatre = made(store)
     theatre.open_a_case()

@@ -60,6 +60,18 @@ def test_images_that_are_lost_again_and_again_are_one_event() -> None:
     ]
 
 
+def test_a_document_that_was_not_in_use_before_is_a_step() -> None:
+    plan, check = ({"id": kind, "kind": kind, "made_by": "Anna"} for kind in ("plan", "check"))
+    events = _Events()
+    events.add_documents(1.0, {"documents": [plan]})
+    events.add_documents(4.0, {"documents": [plan, check]})
+    # Out of date, and valid again.
+    events.add_documents(6.0, {"documents": [plan]})
+    events.add_documents(8.0, {"documents": [plan, check]})
+    found = list(events.events(0.0, 10.0))
+    assert [(one.kind, one.from_s, one.code, one.by) for one in found] == [("step", 4.0, "check", "Anna")]
+
+
 def test_the_figures_are_those_of_the_snapshots_and_gaps_where_they_are_withheld(drilling: Path) -> None:
     index = make_index(drilling)
     assert len(index) == len(DRILLED)

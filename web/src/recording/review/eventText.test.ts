@@ -24,6 +24,12 @@ test("an acknowledgement shows its alarm and person", () => {
   expect(eventText(event, en)).toBe("Acknowledged · BREACH · Anna");
 });
 
+test("a step is named by its document", () => {
+  const step = { ...EVENT, kind: "step", to_s: null, title: null, by: "Anna" } as const;
+  expect(eventText({ ...step, code: "registration" }, en)).toBe("Step · Registration · Anna");
+  expect(eventText({ ...step, code: "newer" }, de)).toBe("Schritt · newer · Anna");
+});
+
 test("a note that this page does not know is named by its code", () => {
   const note = { ...EVENT, kind: "note", to_s: null, title: null } as const;
   expect(eventText({ ...note, code: "IMAGES_MISSING" }, en)).toBe("Recording · images are missing");

@@ -10,6 +10,7 @@ export const SYMBOL: Record<RecordedEvent["kind"], string> = {
   alarm: "▲",
   acknowledgement: "✓",
   mark: "✎",
+  step: "◆",
   comment: "❝",
   note: "■",
 };
@@ -17,8 +18,16 @@ export const SYMBOL: Record<RecordedEvent["kind"], string> = {
 /** "▲ BREACH · 0:04", "✓ BREACH · Anna". */
 export function eventText(event: RecordedEvent, texts: Texts): string {
   const { kinds, notes } = texts.recording.review;
+  const documents: Partial<Record<string, string>> = texts.case.kinds;
   const { kind, title, code, by, from_s, to_s } = event;
-  const what = kind === "note" ? (notes[code] ?? code) : title === null ? "" : textOf(title, texts);
+  const what =
+    kind === "note"
+      ? (notes[code] ?? code)
+      : kind === "step"
+        ? (documents[code] ?? code)
+        : title === null
+          ? ""
+          : textOf(title, texts);
   const lasted = to_s === null ? "" : clockDuration(to_s - from_s);
   return [kinds[kind], what, by, lasted].filter((one) => one !== "").join(" · ");
 }

@@ -131,6 +131,7 @@ export const recordingDe: RecordingTexts = {
       alarm: "Alarm",
       acknowledgement: "Quittiert",
       mark: "Markierung",
+      step: "Schritt",
       comment: "Kommentar",
       note: "Aufnahme",
     },

@@ -132,6 +132,7 @@ export const recordingEn = {
       alarm: "Alarm",
       acknowledgement: "Acknowledged",
       mark: "Mark",
+      step: "Step",
       comment: "Comment",
       note: "Recording",
     },
