@@ -69,7 +69,7 @@ class MarkerPoseMessage(Message):
     marker: str
     camera_from_marker: PoseMessage
     covariance: list[list[float]]
-    """6 rows of 6: translation [mm], then a small left-multiplied rotation vector in the camera's frame [rad]."""
+    """6 rows of 6: translation [mm], then a left-multiplied rotation vector in the camera's frame [rad]."""
 
 
 class PosesMessage(Message):
