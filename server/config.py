@@ -73,8 +73,8 @@ class CameraConfig(Section):
     """Restart a video file or folder at its end."""
     rate: Literal["own", "fast"] = "own"
     """own: play a file at its own rate; fast: as fast as the tracker, without skipping images."""
-    playback_speed: Annotated[float, Field(ge=0.01, le=1.0)] = 1.0
-    """Fraction of its own rate at which a file is played."""
+    playback_speed: Annotated[float, Field(ge=0.1, le=1.0)] = 1.0
+    """Fraction of its own rate at which a file is played. More slowly, figures would become stale."""
     width: Annotated[int, Field(ge=16, le=7680)] | None = None
     """Requested from a local camera, together with height; default: selected from its modes."""
     height: Annotated[int, Field(ge=16, le=4320)] | None = None

@@ -100,11 +100,14 @@ class RecordingSource:
         self._read_in_pass = 0
 
     def _next(self) -> RecordedMessage | None:
-        for message in self._images:
-            if message.topic is Topic.TRACKED:
-                self._is_predicted = bool(message.json()["is_predicted"])
-            elif message.topic is Topic.IMAGE:
-                return message
+        try:
+            for message in self._images:
+                if message.topic is Topic.TRACKED:
+                    self._is_predicted = bool(message.json()["is_predicted"])
+                elif message.topic is Topic.IMAGE:
+                    return message
+        except RecordingError as error:
+            raise CaptureError(error.code, error.message, error.remedy, error.context) from error
         return None
 
     def _without_images(self) -> CaptureError:

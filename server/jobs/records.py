@@ -7,7 +7,7 @@ from server.live import Problem
 
 
 class JobQueue(StrEnum):
-    """Jobs of one queue run one after another."""
+    """Jobs wait for those of their own queue only."""
 
     PROCEDURE = "procedure"  # somebody waits for them in theatre
     RECORDINGS = "recordings"  # a video of an hour takes longer than that hour

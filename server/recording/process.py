@@ -316,10 +316,10 @@ class Recording:
         can_request = self._ring is not None and now_s - self._requested_at_s >= MIN_REQUEST_INTERVAL_S
         if can_request and (is_old or not self._has_state):
             self._requested_at_s = now_s
-            self._send(StateNeeded())
+            self._tell(StateNeeded())
         if now_s - self._reported_at_s >= STATUS_PERIOD_S:
             self._reported_at_s = now_s
-            self._send(self.status())
+            self._tell(self.status())
 
     def note(self, code: str, message: str, *, images: int = 0) -> None:
         """Write a remark on the recording."""
@@ -338,6 +338,11 @@ class Recording:
             self._drain()
         finally:
             self._writer.close()
+
+    def _tell(self, message: ToServer) -> None:
+        # A server that has exited is noticed where its messages are received; what is recorded is kept.
+        with contextlib.suppress(OSError):
+            self._send(message)
 
     def _change_ring(self, ring: ImageRing | None) -> None:
         if self._ring is not None:
@@ -398,7 +403,7 @@ class Recording:
         )
         encoding = self._encoding
         self._waiting.append(lambda: self._write_state(encoding, number, at_s))
-        self._send(AlarmsNeeded())
+        self._tell(AlarmsNeeded())
 
     def _write_state(self, encoding: Future[bytes], number: int, at_s: float) -> None:
         error = encoding.exception()

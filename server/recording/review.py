@@ -78,10 +78,12 @@ class RecordedScene:
     Attributes:
         snapshot: Its results; see `snapshot_of` for what they lack.
         surface_id: Document of the bone surface that was in use; empty if there was none.
+        recording: Path of the recording.
     """
 
     snapshot: NavigationSnapshot
     surface_id: str
+    recording: Path
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -240,6 +242,7 @@ class RecordingReview:
             return RecordedScene(
                 snapshot=snapshot_of(message, setup),
                 surface_id=_surface_id(DocumentsMessage.model_validate_json(documents)) if documents else "",
+                recording=path,
             )
         except ValidationError as error:
             raise other_version(name, number, error) from None

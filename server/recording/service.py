@@ -49,7 +49,7 @@ EXPORTS = ".exports"
 POLL_S = 0.25
 # Waiting time after a failure, instead of an attempt at each of the four polls per second.
 RETRY_AFTER_S = 30.0
-# Documents that configure tracking, alarms and overlay; a replay needs no others.
+# Documents that configure tracking, alarms and overlay, and the bone of the 3-D scene.
 RECORDED_KINDS = (
     DocumentKind.CAMERA,
     DocumentKind.MARKER,
@@ -153,7 +153,7 @@ class RecordingService:
         self._closing: set[str] = set()
         self._last: RecordingStatus | None = None
         self._problem: Problem | None = None
-        self._documents: tuple[str, ...] = ()
+        self._documents: tuple[str, ...] | None = None
         # By file, with the size and modification time for which they are valid.
         self._durations: dict[Path, tuple[tuple[int, int], float | None]] = {}
         self._failed_at_s = -RETRY_AFTER_S
@@ -368,17 +368,35 @@ class RecordingService:
         sync_folder(path.parent)
 
     def _rotate(self) -> None:
-        """Delete the oldest unprotected recordings of all cases, until enough of the budget is free."""
-        max_bytes = MAX_KEPT_RATIO * self._config.recording.max_total_gb * 1e9
-        paths = self._store.home.cases.glob(f"*/{RECORDINGS}/*{SUFFIX}")
+        """Delete the oldest unprotected recordings of all cases, until enough of the budget is free.
+
+        Nothing is deleted where that is not possible, because protected ones take too much of it.
+        """
+        over_bytes = self._total_bytes() - MAX_KEPT_RATIO * self._config.recording.max_total_gb * 1e9
         # Names begin with the time.
-        for path in sorted(paths, key=lambda path: path.name):
-            if self._total_bytes() <= max_bytes:
+        unprotected = sorted(
+            (
+                path
+                for path in self._store.home.cases.glob(f"*/{RECORDINGS}/*{SUFFIX}")
+                if NAME.fullmatch(path.name)
+                and path.name not in self._closing
+                and not _protection(path).exists()
+            ),
+            key=lambda path: path.name,
+        )
+        sizes = [_size_with_exports(path) for path in unprotected]
+        if sum(sizes) < over_bytes:
+            return
+        for path, size in zip(unprotected, sizes, strict=True):
+            if over_bytes <= 0.0:
                 return
-            if path.name not in self._closing and not _protection(path).exists():
-                log.warning("a recording was deleted by rotation", file=path.name, case=path.parents[1].name)
-                with suppress(FileNotFoundError):
-                    self._delete_file(path)
+            log.warning("a recording is deleted by rotation", file=path.name, case=path.parents[1].name)
+            try:
+                self._delete_file(path)
+            except OSError:
+                log.warning("a recording cannot be deleted", file=path.name, exc_info=True)
+            else:
+                over_bytes -= size
 
     def put_export(self, recording: Path, made: Path) -> Path:
         """Move an exported file beside its recording, replacing the previous one; return its path.
@@ -435,6 +453,7 @@ class RecordingService:
                 "State it on the operator's page, or with POST /api/recordings/consent.",
             )
         folder = self._folder(case)
+        self.require_space()
         if settings.rotate:
             self._rotate()
         left_bytes = settings.max_total_gb * 1e9 - self._total_bytes()
@@ -445,7 +464,6 @@ class RecordingService:
                 "Delete recordings that are not needed, or raise recording.max_total_gb.",
                 {"max_total_gb": settings.max_total_gb},
             )
-        self.require_space()
         now = utc_now()
         name = f"{now:{TIME_FORMAT}}-{secrets.token_hex(2)}{SUFFIX}"
         with ExitStack() as stack:
@@ -476,7 +494,7 @@ class RecordingService:
                 max_bytes=left_bytes,
                 in_use=stack.pop_all(),
             )
-        self._problem, self._documents = None, ()
+        self._problem, self._documents = None, None
         self._alarms.set_recording_runs(runs=True)
         self._put_documents()
         log.info("recording started", file=name, case=case.id)
@@ -612,6 +630,14 @@ class RecordingService:
 
     def _folder(self, case: Case) -> Path:
         return self._store.home.cases / case.id / RECORDINGS
+
+
+def _size_with_exports(path: Path) -> int:
+    total = 0
+    for one in (path, *exports_folder(path).glob("*")):
+        with suppress(FileNotFoundError):
+            total += one.stat().st_size
+    return total
 
 
 def _began_at(name: str) -> str | None:

@@ -10,6 +10,7 @@ from server.capture.shot import Shot
 from server.capture.source_factory import source_from_config
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
+from server.recording_file import Packing
 from tests.server.recording_file.written import made_writer, write_recording
 
 
@@ -56,6 +57,11 @@ def test_a_recording_without_images_and_another_file_are_reported(tmp_path: Path
     with pytest.raises(CaptureError) as other:
         read_all(recording(tmp_path / "other.mcap"))
     assert other.value.code == "RECORDING_NOT_READABLE"
+    path = write_recording(tmp_path / "encoded.mcap")
+    path.write_bytes(path.read_bytes().replace(Packing.ZSTD_BGR.encode(), b"zstd-another-encoding-bgr"))
+    with pytest.raises(CaptureError) as encoded:
+        read_all(recording(path))
+    assert encoded.value.code == "RECORDING_NOT_READABLE"
 
 
 def test_the_settings_name_it_by_its_path(tmp_path: Path) -> None:

@@ -65,6 +65,7 @@ class RecordedTheatre:
         self._packer = ReportPacker()
         self._tracked = 0
         self.recording: Recording | None = None
+        self.send: Callable[[ToServer], None] = self.sent.append
         self._needs_state = False
 
     def begin(self) -> None:
@@ -81,7 +82,7 @@ class RecordedTheatre:
             ),
             log=LogSettings(as_json=True),
         )
-        self.recording = Recording(order, send=self.sent.append, clock=lambda: self.now_s)
+        self.recording = Recording(order, send=self.send, clock=lambda: self.now_s)
         self.recording.take(RingChanged(ring=self.ring))
         self.recording.tick()
         self._answer()

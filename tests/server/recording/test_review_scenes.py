@@ -1,9 +1,13 @@
 """The 3-D scene of a recorded instant, as a browser receives it."""
 
+import asyncio
 import shutil
+import threading
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import msgspec
 import numpy as np
@@ -14,14 +18,20 @@ from starlette.websockets import WebSocketDisconnect
 
 from server.app import AppParts, create_app
 from server.config import Config
+from server.imaging.meshes import ply_from_surface
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.logs import LogSettings
-from server.recording.review_scenes import MAX_SCENES
+from server.recording.review import RecordedScene, RecordingReview
+from server.recording.review_scenes import MAX_SCENES, ReviewScenes, _ReviewScene
 from server.scene.gate import SUBPROTOCOL
-from server.store import CaseStore, Home
+from server.scene.nodes import BONE_NODE
+from server.scene.scene import anybody
+from server.store import CaseStore, DocumentKind, Home
 from tests.server.recording.no_recorder import recordings_without_process
 from tests.server.recording.reviewed import write_drilling
+from tests.server.scene.scene_theatre import block
+from tracker.navigation import NavigationSnapshot
 
 NAME, WITHOUT_STATE = "20260101T000000Z-0000.mcap", "20260102T000000Z-0000.mcap"
 KEY = "0123456789abcdef"
@@ -29,31 +39,36 @@ SOCKET = "ws://127.0.0.1:8000/scene/review"
 
 
 @pytest.fixture
-def client(recorded: Path, tmp_path: Path) -> Iterator[TestClient]:
-    """Return a client of a server with two indexed recordings."""
+def store(recorded: Path, tmp_path: Path) -> Iterator[CaseStore]:
+    """Return the store of an open case with two recordings."""
     with Home(tmp_path / "home") as home, CaseStore(home) as store:
-        store.open(store.create("L3").id)
-        case = store.get_open_case()
-        assert case is not None
-        folder = home.cases / case.id / "recordings"
+        case_id = store.create("L3").id
+        store.open(case_id)
+        folder = home.cases / case_id / "recordings"
         folder.mkdir(parents=True)
         shutil.copy(recorded, folder / NAME)
         write_drilling(folder / WITHOUT_STATE)
-        config = Config.model_validate({"recording": {"min_free_gb": 0.0, "consent": "not_required"}})
-        jobs = Jobs(log=LogSettings(as_json=True))
-        parts = AppParts(
-            hub=LiveHub(),
-            config=config,
-            store=store,
-            recordings=recordings_without_process(store, config),
-            jobs=jobs,
-        )
-        with TestClient(create_app(parts), base_url="http://127.0.0.1:8000") as client:
-            for name in (NAME, WITHOUT_STATE):
-                found = client.get(f"/api/recordings/{name}/timeline").json()
-                jobs.wait_for(found["job"]["id"], timeout_s=60.0)
-            yield client
-        jobs.close()
+        yield store
+
+
+@pytest.fixture
+def client(store: CaseStore) -> Iterator[TestClient]:
+    """Return a client of a server on which both are indexed."""
+    config = Config.model_validate({"recording": {"min_free_gb": 0.0, "consent": "not_required"}})
+    jobs = Jobs(log=LogSettings(as_json=True))
+    parts = AppParts(
+        hub=LiveHub(),
+        config=config,
+        store=store,
+        recordings=recordings_without_process(store, config),
+        jobs=jobs,
+    )
+    with TestClient(create_app(parts), base_url="http://127.0.0.1:8000") as client:
+        for name in (NAME, WITHOUT_STATE):
+            found = client.get(f"/api/recordings/{name}/timeline").json()
+            jobs.wait_for(found["job"]["id"], timeout_s=60.0)
+        yield client
+    jobs.close()
 
 
 def show(client: TestClient, number: int, *, name: str = NAME, key: str = KEY) -> dict[str, Any]:
@@ -61,20 +76,22 @@ def show(client: TestClient, number: int, *, name: str = NAME, key: str = KEY) -
     return {"status": answer.status_code, **answer.json()}
 
 
-def positions(packet: bytes) -> dict[str, list[float]]:
-    """Return the new positions of nodes in a message."""
+def messages(packet: bytes) -> list[dict[str, Any]]:
+    """Return the messages of viser in a packet."""
     size, length = int.from_bytes(packet[:8], "little"), int.from_bytes(packet[8:16], "little")
     plain = zstandard.ZstdDecompressor().decompress(packet[16 : 16 + length], max_output_size=size)
-    batch = msgspec.msgpack.decode(plain)["messages"]
-    return {one["name"]: one["position"] for one in batch if one["type"] == "SetPositionMessage"}
+    return list(msgspec.msgpack.decode(plain)["messages"])
 
 
-def drawn(socket: Any, image_number: int) -> dict[str, list[float]]:  # noqa: ANN401  of the test client
-    """Return the positions of nodes when this image is drawn."""
+def drawn(socket: Any, image_number: int) -> tuple[dict[str, list[float]], set[str]]:  # noqa: ANN401  of the test client
+    """Return the positions of nodes when this image is drawn, and the names of new meshes."""
     found: dict[str, list[float]] = {}
+    meshes: set[str] = set()
     while found.get("/image_number", [0.0, 0.0])[:2] != [1.0, image_number]:
-        found |= positions(socket.receive_bytes())
-    return found
+        batch = messages(socket.receive_bytes())
+        found |= {one["name"]: one["position"] for one in batch if one["type"] == "SetPositionMessage"}
+        meshes |= {one["name"] for one in batch if one["type"] == "MeshMessage"}
+    return found, meshes
 
 
 def test_the_scene_shows_the_recorded_pose_and_follows_the_review(client: TestClient) -> None:
@@ -84,7 +101,7 @@ def test_the_scene_shows_the_recorded_pose_and_follows_the_review(client: TestCl
     assert show(client, 0) == {"status": 200, "image_number": numbers[0]}
     assert client.get(f"/scene/review/{KEY}/").headers["content-type"].startswith("text/html")
     with client.websocket_connect(f"{SOCKET}/{KEY}", subprotocols=[SUBPROTOCOL]) as socket:
-        nodes = drawn(socket, numbers[0])
+        nodes, _ = drawn(socket, numbers[0])
         pose = instants[0]["snapshot"]["tools"][0]["pose"]
         vertebra = instants[0]["snapshot"]["vertebra"]["camera_from_vertebra"]
         rotation = np.array(vertebra["rotation"])
@@ -103,6 +120,73 @@ def test_without_the_setup_nothing_is_drawn(client: TestClient) -> None:
     assert client.get(f"/scene/review/{KEY}/").status_code == 404
     assert show(client, 16)["code"] == "RECORDED_IMAGE_UNKNOWN"
     assert show(client, 0, key="not a key")["status"] == 422
+
+
+def test_the_bone_is_the_one_that_was_in_use(
+    client: TestClient, store: CaseStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = store.get_open_case()
+    assert case is not None
+    surface = block((0.0, 0.0, 0.0), (20.0, 20.0, 10.0))
+    with store.new_file(case.id, ".ply") as new:
+        new.path.write_bytes(ply_from_surface(surface))
+    files = [new.stored.id]
+    document = store.put(case.id, DocumentKind.SURFACE, "main", {}, made_by="Anna", files=files)
+    found = RecordingReview.scene
+
+    def with_bone(review: RecordingReview, name: str, number: int) -> RecordedScene:
+        return replace(found(review, name, number), surface_id=document.id if number < 5 else "")
+
+    monkeypatch.setattr(RecordingReview, "scene", with_bone)
+    image_number = show(client, 0)["image_number"]
+    with client.websocket_connect(f"{SOCKET}/{KEY}", subprotocols=[SUBPROTOCOL]) as socket:
+        _, meshes = drawn(socket, image_number)
+        assert any(name.endswith(BONE_NODE) for name in meshes)
+        _, meshes = drawn(socket, show(client, 10)["image_number"])
+        # Built anew, without the bone.
+        assert meshes
+        assert not any(name.endswith(BONE_NODE) for name in meshes)
+
+
+def test_scenes_are_closed_with_their_case(client: TestClient, store: CaseStore) -> None:
+    show(client, 0)
+    case = store.get_open_case()
+    assert case is not None
+    with client.websocket_connect(f"{SOCKET}/{KEY}", subprotocols=[SUBPROTOCOL]) as socket:
+        store.close()
+        with pytest.raises(WebSocketDisconnect):
+            list(iter(socket.receive_bytes, b""))
+    store.open(case.id)
+    assert client.get(f"/scene/review/{KEY}/").status_code == 404
+
+
+def test_an_image_is_not_drawn_if_another_was_requested_meanwhile(
+    store: CaseStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    overtaken, is_requested = threading.Event(), threading.Event()
+
+    class Review:
+        def scene(self, name: str, number: int) -> RecordedScene:
+            if number == 0:
+                is_requested.set()
+                overtaken.wait(60.0)
+            snapshot = cast(NavigationSnapshot, SimpleNamespace(image_number=number))
+            return RecordedScene(snapshot=snapshot, surface_id="", recording=store.home.cases / name)
+
+    shown: list[int] = []
+    monkeypatch.setattr(_ReviewScene, "show", lambda _, one: shown.append(one.snapshot.image_number))
+    scenes = ReviewScenes(cast(RecordingReview, Review()), store, admit=anybody)
+
+    async def run() -> None:
+        first = asyncio.create_task(scenes.show(KEY, "a", 0))
+        await asyncio.to_thread(is_requested.wait, 60.0)
+        await scenes.show(KEY, "a", 1)
+        overtaken.set()
+        await first
+        await scenes.stop()
+
+    asyncio.run(run())
+    assert shown == [1]
 
 
 def test_of_too_many_scenes_the_oldest_is_closed(client: TestClient) -> None:

@@ -129,6 +129,21 @@ def test_rotation_deletes_the_oldest_unprotected_recordings_of_all_cases(store: 
     assert left == {names[0], names[3]}
 
 
+def test_rotation_deletes_nothing_where_protected_recordings_take_the_budget(store: CaseStore) -> None:
+    theatre = made(store, rotate=True, max_total_gb=1e-6)
+    theatre.open_a_case()
+    case = store.get_open_case()
+    assert case is not None
+    folder = store.home.cases / case.id / "recordings"
+    folder.mkdir(parents=True)
+    names = [f"2026010{day}T000000Z-0000.mcap" for day in (1, 2)]
+    for name, size in zip(names, (850, 100), strict=True):
+        (folder / name).write_bytes(b"x" * size)
+    theatre.service.protect(names[0], is_protected=True)
+    theatre.service.start()
+    assert all((folder / name).exists() for name in names)
+
+
 def test_without_rotation_a_used_up_budget_rejects_a_recording(store: CaseStore) -> None:
     theatre = made(store, max_total_gb=1e-6)
     theatre.open_a_case()

@@ -39,6 +39,9 @@ export function InstantScene({ name, instant }: InstantSceneProps): ReactNode {
   );
 }
 
+/** A scene that is not drawn for this long is requested and loaded again, as after a restart of the server. */
+const RELOAD_AFTER_MS = 10_000;
+
 /** A random key, under which the server keeps the scene of this page. */
 const randomKey = (): string =>
   Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) => byte.toString(16).padStart(2, "0")).join(
@@ -52,6 +55,7 @@ function OpenScene({ name, instant }: InstantSceneProps): ReactNode {
   const [isReady, setIsReady] = useState(false);
   const [drawn, setDrawn] = useState<number | null>(null);
   const [rejection, setRejection] = useState<Rejection | null>(null);
+  const [attempt, setAttempt] = useState(0);
   const [view, setView] = useState<ViewName>("behind");
   const number = instant?.number ?? null;
 
@@ -74,7 +78,7 @@ function OpenScene({ name, instant }: InstantSceneProps): ReactNode {
     return () => {
       stop.abort();
     };
-  }, [name, key, number]);
+  }, [name, key, number, attempt]);
 
   useEffect(() => {
     const onMessage = (event: MessageEvent<unknown>): void => {
@@ -89,13 +93,25 @@ function OpenScene({ name, instant }: InstantSceneProps): ReactNode {
 
   // Image, figures and scene change together: a scene of another image is covered.
   const isCurrent = rejection === null && drawn !== null && drawn === instant?.snapshot.image_number;
-  const hindrance = hasWebGl() ? "loading" : "unsupported";
+  const isMissing = !isCurrent && rejection === null && hasWebGl();
+  useEffect(() => {
+    if (!isMissing) return;
+    const timer = setTimeout(() => {
+      setAttempt((before) => before + 1);
+    }, RELOAD_AFTER_MS);
+    return () => {
+      clearTimeout(timer);
+    };
+  }, [isMissing, attempt, number]);
+
+  const hindrance = isMissing ? "loading" : "unsupported";
   return (
     <>
       <RejectionNote rejection={rejection} />
       <div className="scene-stage" data-testid="review-scene-stage" data-live={isCurrent}>
         {isReady && hasWebGl() && (
           <iframe
+            key={attempt}
             ref={frame}
             src={`/scene/review/${key}/`}
             title={texts.scene.title}
@@ -112,7 +128,11 @@ function OpenScene({ name, instant }: InstantSceneProps): ReactNode {
           }}
         />
         <div className="when-stale">
-          <Cover urgency="none" title={texts.scene[hindrance]} sentence={texts.scene[`${hindrance}Hint`]} />
+          <Cover
+            urgency="none"
+            title={texts.scene[hindrance]}
+            sentence={rejection?.message ?? texts.scene[`${hindrance}Hint`]}
+          />
         </div>
       </div>
     </>
