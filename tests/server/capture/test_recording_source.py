@@ -2,6 +2,8 @@
 
 import threading
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 
@@ -10,7 +12,7 @@ from server.capture.shot import Shot
 from server.capture.source_factory import source_from_config
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
-from server.recording_file import Packing
+from server.recording_file import PackedImage, Packing
 from tests.server.recording_file.written import made_writer, write_recording
 
 
@@ -57,8 +59,11 @@ def test_a_recording_without_images_and_another_file_are_reported(tmp_path: Path
     with pytest.raises(CaptureError) as other:
         read_all(recording(tmp_path / "other.mcap"))
     assert other.value.code == "RECORDING_NOT_READABLE"
-    path = write_recording(tmp_path / "encoded.mcap")
-    path.write_bytes(path.read_bytes().replace(Packing.ZSTD_BGR.encode(), b"zstd-another-encoding-bgr"))
+    path = tmp_path / "encoded.mcap"
+    writer = made_writer(path)
+    encoding = cast(Packing, SimpleNamespace(value="other"))
+    writer.add_image(PackedImage(packing=encoding, size_wh_px=(4, 4), content=b"x"), number=0, at_s=0.0)
+    writer.close()
     with pytest.raises(CaptureError) as encoded:
         read_all(recording(path))
     assert encoded.value.code == "RECORDING_NOT_READABLE"
