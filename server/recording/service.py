@@ -37,7 +37,7 @@ from server.recording.timeline import index_path
 from server.recording_file import Topic, WriterLimits
 from server.recording_file.locations import read_duration_s
 from server.recording_file.topics import SUFFIX
-from server.store import Case, CaseStore, DocumentKind, NotFound, StoreError
+from server.store import Case, CaseStore, Change, DocumentKind, NotFound, StoreError
 from server.store.home import PRIVATE, RECORDINGS, sync_file, sync_folder
 
 NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
@@ -390,13 +390,16 @@ class RecordingService:
         for path, size in zip(unprotected, sizes, strict=True):
             if over_bytes <= 0.0:
                 return
-            log.warning("a recording is deleted by rotation", file=path.name, case=path.parents[1].name)
+            case_id = path.parents[1].name
+            log.warning("a recording is deleted by rotation", file=path.name, case=case_id)
             try:
                 self._delete_file(path)
             except OSError:
                 log.warning("a recording cannot be deleted", file=path.name, exc_info=True)
             else:
                 over_bytes -= size
+                change = Change(case_id=case_id, kind="rotation", name=path.name, before="stored", after=None)
+                self._store.record_change(change)
 
     def put_export(self, recording: Path, made: Path) -> Path:
         """Move an exported file beside its recording, replacing the previous one; return its path.

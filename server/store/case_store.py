@@ -360,6 +360,10 @@ class CaseStore:
         """Set the function that receives each committed change, in the thread that made it."""
         self._on_change = listener
 
+    def record_change(self, change: Change) -> None:
+        """Tell the change listener of a change to files of a case that the store does not list."""
+        self._on_change(change)
+
     def dispose(self) -> None:
         """Close the database. The caller that opened the home closes it."""
         self._database.close()

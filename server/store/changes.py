@@ -11,7 +11,7 @@ class Change:
 
     Attributes:
         case_id: the case.
-        kind: kind of the document, or "case".
+        kind: kind of the document, or "case", "open case", "rotation" (a recording was deleted by it).
         name: name of the document; empty for a case, whose name could identify the patient.
         before: version or state before the change; None if there was none.
         after: version or state after the change; None if there is none.

@@ -15,7 +15,7 @@ from server.recording.process import RecordingStatus
 from server.recording.recorder import Recorder
 from server.recording.service import RecordingService
 from server.recording_file import Topic
-from server.store import CaseStore, DocumentKind, NotFound, StoreConflict
+from server.store import CaseStore, Change, DocumentKind, NotFound, StoreConflict
 from server.store.home import Home
 from tests.server.recording.no_recorder import NoImages, NoRecorder
 from tracker.navigation.alarms import Condition, Presence
@@ -123,7 +123,10 @@ def test_rotation_deletes_the_oldest_unprotected_recordings_of_all_cases(store: 
         folders[number % 2].mkdir(parents=True, exist_ok=True)
         (folders[number % 2] / name).write_bytes(b"x" * 300)
     theatre.service.protect(names[0], is_protected=True)
+    changes: list[Change] = []
+    store.set_change_listener(changes.append)
     theatre.service.start()
+    assert [(one.kind, one.name) for one in changes] == [("rotation", name) for name in names[1:3]]
     left = {path.name for folder in folders for path in folder.glob("2026010*.mcap")}
     # The second and the third are the oldest without protection; 0.8 kB may stay.
     assert left == {names[0], names[3]}

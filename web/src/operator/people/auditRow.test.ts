@@ -37,6 +37,13 @@ test.each([
   expect(auditRow(line, en).what).toBe(what);
 });
 
+test("a recording that was deleted by rotation is named", () => {
+  const changes = [{ what: "rotation", name: "20260101T000000Z-0000.mcap", from: "stored", to: null }];
+  expect(auditRow({ what: "store", changes }, en).changes).toEqual([
+    "Recording deleted to make room for a new one: 20260101T000000Z-0000.mcap",
+  ]);
+});
+
 test.each([
   [204, "✓ done"],
   [403, "✕ rejected"],

@@ -66,8 +66,8 @@ function changeText(change: Line, texts: Texts): string {
   const title = titleOf(text(change["what"]), text(change["name"]), texts);
   const statement = text(change["said"]);
   if (statement !== "") return `${title}: ${statement}`;
-  // Ids of cases are omitted.
-  if (change["what"] === "open case") return title;
+  // Ids of cases are omitted, and a deleted recording has no versions.
+  if (change["what"] === "open case" || change["what"] === "rotation") return title;
   const [from, to] = [text(change["from"]), text(change["to"])];
   if (typeof change["to"] === "number") {
     return `${title}: ${texts.case.version} ${from === "" ? to : `${from} → ${to}`}`;
@@ -80,6 +80,7 @@ function titleOf(what: string, name: string, { audit, case: texts }: Texts): str
   const own: Partial<Record<string, string>> = {
     case: audit.caseChanged,
     "open case": audit.openCase,
+    rotation: audit.rotation,
     invitation: audit.invitation,
     session: audit.session,
     "audit log": audit.log,

@@ -123,6 +123,7 @@ export const auditDe: AuditTexts = {
   invitation: "Einladung",
   session: "Sitzung",
   openCase: "Offener Fall",
+  rotation: "Aufnahme gelöscht, um Platz für eine neue zu schaffen:",
   log: "Protokoll",
   server: "Coaxial selbst",
   nobody: "niemand angemeldet",

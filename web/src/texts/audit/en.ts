@@ -119,6 +119,7 @@ export const auditEn = {
   invitation: "Invitation",
   session: "Session",
   openCase: "Open case",
+  rotation: "Recording deleted to make room for a new one:",
   log: "Audit log",
   server: "Coaxial itself",
   nobody: "nobody signed in",
