@@ -95,7 +95,7 @@ class RecordingSource:
         try:
             self._reader = RecordingReader(self._path)
         except RecordingError as error:
-            raise CaptureError(error.code, error.message, error.remedy, error.context) from error
+            raise _capture_error(error) from error
         self._images = self._reader.messages()
         self._read_in_pass = 0
 
@@ -107,7 +107,7 @@ class RecordingSource:
                 elif message.topic is Topic.IMAGE:
                     return message
         except RecordingError as error:
-            raise CaptureError(error.code, error.message, error.remedy, error.context) from error
+            raise _capture_error(error) from error
         return None
 
     def _without_images(self) -> CaptureError:
@@ -117,3 +117,7 @@ class RecordingSource:
             "Use another recording; coaxial replay prints the contents of this one.",
             {"file": self.name},
         )
+
+
+def _capture_error(error: RecordingError) -> CaptureError:
+    return CaptureError(error.code, error.message, error.remedy, error.context)

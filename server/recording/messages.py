@@ -12,7 +12,7 @@ from server.config import Config
 from server.number_format import finite
 from server.recording_file.topics import FORMAT_VERSION
 from server.stream.message import Message
-from server.stream.pose_messages import PoseMessage
+from server.stream.pose_messages import PoseMessage, pose_message
 from tracker.camera import CameraControl
 from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import (
@@ -231,22 +231,18 @@ def alarm_step_message(step: AlarmStep, picture: AlarmSnapshot) -> AlarmStepMess
 
 def poses_message(snapshot: NavigationSnapshot) -> PosesMessage:
     """Return the poses of the markers in an image."""
-    seen = {name: one for name, one in snapshot.sightings.items() if isinstance(one, Seen)}
+    sightings = snapshot.sightings if snapshot.setup.camera_calibrated else {}
     return PosesMessage(
         image_number=snapshot.image_number,
         poses=[
             MarkerPoseMessage(
                 marker=name,
-                camera_from_marker=PoseMessage(
-                    rotation=one.camera_from_marker.rotation.tolist(),
-                    translation_mm=one.camera_from_marker.translation_mm.tolist(),
-                ),
+                camera_from_marker=pose_message(one.camera_from_marker),
                 covariance=one.pose_covariance.tolist(),
             )
-            for name, one in seen.items()
-        ]
-        if snapshot.setup.camera_calibrated
-        else [],
+            for name, one in sightings.items()
+            if isinstance(one, Seen)
+        ],
     )
 
 

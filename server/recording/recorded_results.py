@@ -120,6 +120,14 @@ def snapshot_of(message: SnapshotMessage, setup: Setup) -> NavigationSnapshot:
     )
 
 
+def snapshot_in_state(message: SnapshotMessage, state: TrackingState | None) -> NavigationSnapshot | None:
+    """Return the snapshot of a message; None if this state does not have the setup of its results."""
+    if state is None:
+        return None
+    setup = setup_of(state.preparation, (message.width_px, message.height_px))
+    return snapshot_of(message, setup) if belongs_to(setup, message) else None
+
+
 def alarms_of(message: AlarmsMessage) -> AlarmSnapshot:
     """Return the alarms of a message; their times are Unix times."""
     return AlarmSnapshot(

@@ -13,7 +13,7 @@ from server.loop.tracking_state import TrackingState
 from server.overlay import encode_jpeg
 from server.recording.drilling_course import DrillingCourse
 from server.recording.messages import DocumentsMessage
-from server.recording.recorded_results import belongs_to, setup_of, snapshot_of, state_of
+from server.recording.recorded_results import snapshot_in_state, state_of
 from server.recording.service import RecordingService
 from server.recording.timeline import (
     FIGURES,
@@ -224,14 +224,10 @@ class RecordingReview:
         Raises the same errors as `jpeg`; RECORDING_WITHOUT_SETUP if the setup of its results is unknown.
         """
         path, index = self._opened(name, number)
-        place = _newest(index.states, number)
         try:
             message = SnapshotMessage.model_validate_json(_content(path, index.snapshots[number]))
-            state = self._state(path, place)
-            setup = (
-                None if state is None else setup_of(state.preparation, (message.width_px, message.height_px))
-            )
-            if setup is None or not belongs_to(setup, message):
+            snapshot = snapshot_in_state(message, self._state(path, _newest(index.states, number)))
+            if snapshot is None:
                 raise RecordingError(
                     "RECORDING_WITHOUT_SETUP",
                     f"{name} does not state with which setup image {number} was computed",
@@ -240,7 +236,7 @@ class RecordingReview:
                 )
             documents = _content(path, _newest(index.documents, number))
             return RecordedScene(
-                snapshot=snapshot_of(message, setup),
+                snapshot=snapshot,
                 surface_id=_surface_id(DocumentsMessage.model_validate_json(documents)) if documents else "",
                 recording=path,
             )

@@ -12,7 +12,7 @@ import secrets
 import shutil
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -384,7 +384,7 @@ class RecordingService:
             ),
             key=lambda path: path.name,
         )
-        sizes = [_size_with_exports(path) for path in unprotected]
+        sizes = [_sum_of_sizes((path, *exports_folder(path).glob("*"))) for path in unprotected]
         if sum(sizes) < over_bytes:
             return
         for path, size in zip(unprotected, sizes, strict=True):
@@ -624,22 +624,20 @@ class RecordingService:
         return known[1]
 
     def _total_bytes(self) -> int:
-        total = 0
-        for pattern in (f"*{SUFFIX}", f"*{EXPORTS}/*"):
-            for path in self._store.home.cases.glob(f"*/{RECORDINGS}/{pattern}"):
-                with suppress(FileNotFoundError):
-                    total += path.stat().st_size
-        return total
+        patterns = (f"*{SUFFIX}", f"*{EXPORTS}/*")
+        cases = self._store.home.cases
+        return _sum_of_sizes(path for pattern in patterns for path in cases.glob(f"*/{RECORDINGS}/{pattern}"))
 
     def _folder(self, case: Case) -> Path:
         return self._store.home.cases / case.id / RECORDINGS
 
 
-def _size_with_exports(path: Path) -> int:
+def _sum_of_sizes(paths: Iterable[Path]) -> int:
+    """Return the size of the files in bytes; one that was deleted meanwhile has none."""
     total = 0
-    for one in (path, *exports_folder(path).glob("*")):
+    for path in paths:
         with suppress(FileNotFoundError):
-            total += one.stat().st_size
+            total += path.stat().st_size
     return total
 
 

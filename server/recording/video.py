@@ -25,7 +25,7 @@ from server.disk import named_when_complete
 from server.errors import RecordingError
 from server.loop.tracking_state import TrackingState
 from server.overlay import draw_card, draw_overlay, with_strip
-from server.recording.recorded_results import alarms_of, belongs_to, setup_of, snapshot_of, state_of
+from server.recording.recorded_results import alarms_of, snapshot_in_state, state_of
 from server.recording.timeline import STATE_ENDS, RecordingIndex, Report, make_index, stored_index
 from server.recording_file import RecordedMessage, RecordingReader, Topic
 from server.recording_file.locations import read_content
@@ -220,12 +220,11 @@ class _Pictures:
             alarms = alarms_of(AlarmsMessage.model_validate_json(content)) if content else QUIET
         except ValidationError:
             return pixels, OTHER_VERSION[language]
-        state, size_wh_px = self._state, (message.width_px, message.height_px)
-        setup = None if state is None else setup_of(state.preparation, size_wh_px)
-        if setup is None or not belongs_to(setup, message):
+        recorded = snapshot_in_state(message, self._state)
+        if recorded is None:
             return pixels, NO_SETUP[language]
         try:
-            drawn = draw_overlay(pixels, snapshot_of(message, setup), alarms, language=language)
+            drawn = draw_overlay(pixels, recorded, alarms, language=language)
         except InvalidInput:
             return pixels, NOT_DECODED[language]
         return drawn, "" if content else NO_ALARMS[language]

@@ -17,7 +17,7 @@ class Topic(StrEnum):
     SESSION = "/session"  # versions, machine, settings; first in the file
     IMAGE = "/image"  # a JPEG or compressed pixels, see the channel's metadata
     TRACKED = "/tracked"  # input of tracking other than the image
-    POSES = "/poses"  # poses of the markers with their covariances, in full precision
+    POSES = "/poses"  # poses of the markers with their covariances
     SNAPSHOT = "/snapshot"  # result of the image, as in the live message
     STATE = "/state"  # tracking state before the next image; Zstandard, JSON
     SOURCE = "/source"  # state of source and camera, as in the live message, when it changes

@@ -1,13 +1,13 @@
 """Poses of markers, tools and the vertebra, or the reason why one is unknown."""
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
 
 from server.stream.message import Message
-from tracker.geometry import Array
+from tracker.geometry import Rigid
 from tracker.navigation import Absent, AbsentReason, ToolPose, VertebraPose
 from tracker.pose import FoundBy, Seen, Sighting, UnseenReason
 
@@ -95,7 +95,7 @@ def tool_message(tool: ToolPose | Absent) -> ToolMessage | AbsentMessage:
         return absent_message(tool)
     pose = tool.camera_from_tool
     return ToolMessage(
-        camera_from_tool=_pose(pose.rotation, pose.translation_mm),
+        camera_from_tool=pose_message(pose),
         tip_sd_mm=math.sqrt(float(np.trace(tool.tip_covariance_mm2))),
         lag_ms=tool.lag_ms,
     )
@@ -107,7 +107,7 @@ def vertebra_message(vertebra: VertebraPose | Absent) -> VertebraMessage | Absen
         return absent_message(vertebra)
     pose = vertebra.camera_from_vertebra
     return VertebraMessage(
-        camera_from_vertebra=_pose(pose.rotation, pose.translation_mm),
+        camera_from_vertebra=pose_message(pose),
         covariance=vertebra.covariance.tolist(),
     )
 
@@ -117,8 +117,9 @@ def absent_message(absent: Absent) -> AbsentMessage:
     return AbsentMessage(reason=absent.reason)
 
 
-def _pose(rotation: Array, translation_mm: Array) -> PoseMessage:
-    return PoseMessage(rotation=rotation.tolist(), translation_mm=translation_mm.tolist())
+def pose_message(pose: Rigid[Any, Any]) -> PoseMessage:
+    """Return the message of a rigid transform."""
+    return PoseMessage(rotation=pose.rotation.tolist(), translation_mm=pose.translation_mm.tolist())
 
 
 def _sighting(sighting: Sighting, *, calibrated: bool) -> MarkerSeenMessage | MarkerUnseenMessage:
@@ -127,7 +128,7 @@ def _sighting(sighting: Sighting, *, calibrated: bool) -> MarkerSeenMessage | Ma
     pose = sighting.camera_from_marker
     return MarkerSeenMessage(
         corners_px=sighting.corners_px.tolist(),
-        camera_from_marker=_pose(pose.rotation, pose.translation_mm) if calibrated else None,
+        camera_from_marker=pose_message(pose) if calibrated else None,
         score_ratio=sighting.score_ratio,
         target_score_ratio=sighting.target_score_ratio,
         model_coverage_ratio=sighting.model_coverage_ratio,

@@ -9,10 +9,8 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
-import msgspec
 import numpy as np
 import pytest
-import zstandard
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
@@ -30,6 +28,7 @@ from server.scene.scene import anybody
 from server.store import CaseStore, DocumentKind, Home
 from tests.server.recording.no_recorder import recordings_without_process
 from tests.server.recording.reviewed import write_drilling
+from tests.server.scene.packets import viser_messages
 from tests.server.scene.scene_theatre import block
 from tracker.navigation import NavigationSnapshot
 
@@ -76,19 +75,12 @@ def show(client: TestClient, number: int, *, name: str = NAME, key: str = KEY) -
     return {"status": answer.status_code, **answer.json()}
 
 
-def messages(packet: bytes) -> list[dict[str, Any]]:
-    """Return the messages of viser in a packet."""
-    size, length = int.from_bytes(packet[:8], "little"), int.from_bytes(packet[8:16], "little")
-    plain = zstandard.ZstdDecompressor().decompress(packet[16 : 16 + length], max_output_size=size)
-    return list(msgspec.msgpack.decode(plain)["messages"])
-
-
 def drawn(socket: Any, image_number: int) -> tuple[dict[str, list[float]], set[str]]:  # noqa: ANN401  of the test client
     """Return the positions of nodes when this image is drawn, and the names of new meshes."""
     found: dict[str, list[float]] = {}
     meshes: set[str] = set()
     while found.get("/image_number", [0.0, 0.0])[:2] != [1.0, image_number]:
-        batch = messages(socket.receive_bytes())
+        batch = viser_messages(socket.receive_bytes())
         found |= {one["name"]: one["position"] for one in batch if one["type"] == "SetPositionMessage"}
         meshes |= {one["name"] for one in batch if one["type"] == "MeshMessage"}
     return found, meshes

@@ -13,7 +13,6 @@ import httpx2
 import msgspec
 import numpy as np
 import pytest
-import zstandard
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
@@ -22,6 +21,7 @@ from server.live import Instant
 from server.scene import scene as scene_module
 from server.scene.gate import Verdict
 from server.scene.stage import Stage
+from tests.server.scene.packets import viser_messages
 from tests.server.scene.scene_theatre import Running, Theatre, running
 from tracker.plan import Surface
 
@@ -44,10 +44,7 @@ def viewer(
 
 def names_and_positions(packet: bytes | str) -> dict[str, list[float]]:
     assert isinstance(packet, bytes)
-    size, length = int.from_bytes(packet[:8], "little"), int.from_bytes(packet[8:16], "little")
-    plain = zstandard.ZstdDecompressor().decompress(packet[16 : 16 + length], max_output_size=size)
-    batch = msgspec.msgpack.decode(plain)["messages"]
-    return {m["name"]: m["position"] for m in batch if m["type"] == "SetPositionMessage"}
+    return {m["name"]: m["position"] for m in viser_messages(packet) if m["type"] == "SetPositionMessage"}
 
 
 def next_number(line: ClientConnection) -> int | None:

@@ -6,14 +6,13 @@ from collections.abc import Callable, Coroutine
 from dataclasses import replace
 from typing import Any
 
-import msgspec
 import numpy as np
 import pytest
-import zstandard
 
 from server.live import Instant
 from server.scene.door import Door
 from server.scene.stage import NUMBER_NODE, Stage
+from tests.server.scene.packets import viser_messages
 from tests.server.scene.scene_theatre import Theatre
 from tracker.navigation import Absent, PlacedScrew, ScrewSize
 from tracker.plan import Channel
@@ -28,9 +27,7 @@ class Viewer:
         self.batches: asyncio.Queue[Batch] = asyncio.Queue()
 
     async def send(self, packet: bytes) -> None:
-        size, length = int.from_bytes(packet[:8], "little"), int.from_bytes(packet[8:16], "little")
-        plain = zstandard.ZstdDecompressor().decompress(packet[16 : 16 + length], max_output_size=size)
-        self.batches.put_nowait(list(msgspec.msgpack.decode(plain)["messages"]))
+        self.batches.put_nowait(viser_messages(packet))
 
 
 def on_stage(theatre: Theatre, play: Callable[[Stage, Viewer], Coroutine[Any, Any, None]]) -> None:
