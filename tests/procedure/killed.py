@@ -29,7 +29,7 @@ from tests.procedure.killing.people import VALID_STATES, KilledUnderUs, Listener
 from tests.procedure.killing.processes import Family, family_of, kill, left_behind
 from tests.procedure.killing.promised import Promised
 from tests.procedure.killing.theatre import prepare, settings_of
-from tests.procedure.real_server import PATIENCE_S, port_of, started
+from tests.procedure.real_server import unended_server
 from tests.procedure.team import Team
 
 TARGETS = ("web", "tracking", "both")
@@ -110,12 +110,10 @@ class Theatre:
         self._ending.close()
 
     def _start(self) -> None:
-        errors = self._ending.enter_context((self._folder / "log.txt").open("a", encoding="utf-8"))
-        process = self._ending.enter_context(started(self._folder, self._settings, errors=errors))
-        port = port_of(process)
-        door = httpx2.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S)
-        self._ending.enter_context(door)
-        self._server = WatchedServer(port=port, process=process, door=door, promised=self._promised)
+        server = unended_server(self._ending, self._folder, self._settings)
+        self._server = WatchedServer(
+            port=server.port, process=server.process, door=server.door, promised=self._promised
+        )
         self._hear()
         team = Team(server=self._server, config=self._config)
         self._people = People(team, self._server, self._probability, self._numbers)

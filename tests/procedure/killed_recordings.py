@@ -18,8 +18,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import httpx2
-
 from server.config import Config
 from server.errors import RecordingError
 from server.recording.replay import check_recording
@@ -27,7 +25,7 @@ from server.recording_file import RecordingReader, Topic
 from tests.procedure.killing.people import CONFIRM
 from tests.procedure.killing.processes import family_of, kill, left_behind
 from tests.procedure.killing.theatre import prepare, settings_of
-from tests.procedure.real_server import PATIENCE_S, RealServer, port_of, started
+from tests.procedure.real_server import unended_server
 
 TARGETS = ("web", "tracking", "recorder", "all")
 MAX_LOST_S = 1.0
@@ -119,11 +117,7 @@ class RecordedOperation:
             one.broken.append(f"the replay of {report.images} images differs: {first}")
 
     def _start(self) -> None:
-        errors = self._ending.enter_context((self._folder / "log.txt").open("a", encoding="utf-8"))
-        process = self._ending.enter_context(started(self._folder, self._settings, errors=errors))
-        port = port_of(process)
-        door = httpx2.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S)
-        self._server = RealServer(port=port, process=process, door=self._ending.enter_context(door))
+        self._server = unended_server(self._ending, self._folder, self._settings)
         self._server.until("a pose", lambda: self._server.ask("GET", "/api/live", 200)["snapshot"])
         needed = self._server.ask("GET", "/api/procedure", 200)["confirmation"]
         if needed is not None:

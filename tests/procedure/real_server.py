@@ -7,7 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
@@ -129,6 +129,15 @@ def started(
         stderr=errors,
         text=True,
     )
+
+
+def unended_server(ending: ExitStack, folder: Path, settings: Mapping[str, object]) -> RealServer:
+    """A server that its caller kills; `ending` then closes what belongs to it. Its log is in this folder."""
+    errors = ending.enter_context((folder / "log.txt").open("a", encoding="utf-8"))
+    process = ending.enter_context(started(folder, settings, errors=errors))
+    port = port_of(process)
+    door = ending.enter_context(httpx2.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S))
+    return RealServer(port=port, process=process, door=door)
 
 
 def port_of(process: "subprocess.Popen[str]") -> int:
