@@ -156,7 +156,10 @@ def _add_pedicles(router: APIRouter, step: PlanStep) -> None:
 def _add_channels(router: APIRouter, step: PlanStep) -> None:
     @router.put("/vertebrae/{name}/channels/{side}", responses=CHANGE_ERRORS)
     def lay(name: str, side: Side, requested: ChannelRequest) -> PlanMessage:
-        """Place the channel along the measured pedicle with its minimum width, or set it by hand."""
+        """Place the channel along the measured pedicle with its minimum width, or set it by hand.
+
+        Along the pedicle it gets the proposed screw, if one fits.
+        """
         hand = requested.by_hand
         ends = None if hand is None else (hand.entry_lps_mm, hand.target_lps_mm, hand.diameter_mm)
         return plan_message(step.lay_channel(name, side, ends, requested.author))

@@ -148,7 +148,10 @@ class PlanStep:
     def lay_channel(
         self, name: str, side: Side, ends: tuple[Sequence[float], Sequence[float], float] | None, by: Author
     ) -> StoredPlan:
-        """Place the channel of the measured pedicle, or set it by hand: ends in LPS mm, diameter in mm."""
+        """Place the channel of the measured pedicle, or set it by hand: ends in LPS mm, diameter in mm.
+
+        A channel along the pedicle gets the proposed screw, unless it has one or none fits.
+        """
         channel: Channel | None = None
         if ends is not None:
             channel = channel_from_points(
@@ -157,14 +160,25 @@ class PlanStep:
                 target_lps_mm=ends[1],
                 diameter_mm=ends[2],
             )
-        return self._change(
-            by,
-            lambda plan, volume: _rejected_odd(
+
+        def laid(plan: PlanDocument, volume: Volume) -> PlanDocument:
+            changed = _rejected_odd(
                 changes.with_channel(
                     plan, name, side, channel, volume=volume, front_margin_mm=self._front_margin_mm
                 )
-            ),
-        )
+            )
+            vertebra = changes.vertebra_named(changed, name)
+            if ends is not None or changes.channel_of(vertebra, side).screws:
+                return changed
+            try:
+                size_mm = self._proposed(changed, name, side)
+            except PlanError as error:
+                if error.code != "NO_SCREW_FITS":
+                    raise
+                return changed
+            return changes.with_screw(changed, name, side, size_mm, volume=volume)
+
+        return self._change(by, laid)
 
     def remove_channel(self, name: str, side: Side, by: Author) -> StoredPlan:
         """Remove the channel of this side; raises PlanError CHANNEL_MISSING."""

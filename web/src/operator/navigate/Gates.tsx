@@ -5,6 +5,7 @@ import { QueryStatus } from "../../rest/QueryStatus";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
 import { sentence } from "../parts/format";
+import { StepActions } from "../StepActions";
 import { stateText } from "../stepTexts";
 import { useProcedure, type Step } from "../../app/procedure";
 
@@ -20,12 +21,16 @@ export function Gates(): ReactNode {
   const check = data.steps.find((one) => one.step === "check");
   if (open.length === 0)
     return (
-      <p className="good" role="status" data-testid="gates-open">
-        ✓ {texts.navigate.open} {check !== undefined && checkSaid(texts.navigate.checked, check.numbers)}{" "}
-        <Link className="big-link" href="/operator/check" data-testid="re-check">
-          {texts.navigate.recheck}
-        </Link>
-      </p>
+      <>
+        <p className="good" role="status" data-testid="gates-open">
+          ✓ {texts.navigate.open} {check !== undefined && checkSaid(texts.navigate.checked, check.numbers)}
+        </p>
+        <StepActions>
+          <Link className="big-link" href="/operator/check" data-testid="re-check">
+            {texts.navigate.recheck}
+          </Link>
+        </StepActions>
+      </>
     );
   return (
     <section className="card gates" data-testid="gates-shut">

@@ -62,7 +62,7 @@ export const cameraDe: CameraTexts = {
   collecting: "Ansichten aufnehmen",
   ended: "Die Aufnahme ist beendet.",
   coverageAlt: "Die Tafel war in {there} von {all} Teilen des Bildes",
-  coverageCaption: "Bisherige Orte der Tafel (gefüllt) und jetziger Ort (Punkte)",
+  coverageCaption: "Gefüllt: bisher aufgenommen. Punkte: die Tafel jetzt.",
   tilts: "Neigung nach jeder Seite",
   tiltWanted: "mindestens",
   ways: { up: "Oberkante", down: "Unterkante", left: "linke Kante", right: "rechte Kante" },

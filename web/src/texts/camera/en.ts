@@ -70,7 +70,7 @@ export const cameraEn = {
   collecting: "Collecting views",
   ended: "Collecting has ended.",
   coverageAlt: "The board has been in {there} of {all} parts of the image",
-  coverageCaption: "Previous positions of the board (filled) and present position (points)",
+  coverageCaption: "Filled: captured so far. Points: the board now.",
   tilts: "Tilt to each side",
   tiltWanted: "at least",
   ways: { up: "upper edge", down: "lower edge", left: "left edge", right: "right edge" },

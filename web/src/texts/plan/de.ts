@@ -57,7 +57,7 @@ export const planDe: PlanTexts = {
     measure: { left: "Linken Pedikel messen", right: "Rechten Pedikel messen" },
     again: { left: "Linken Pedikel neu messen", right: "Rechten Pedikel neu messen" },
     showDoubtful: "Ergebnis anzeigen",
-    layChannel: "Kanal durch den Pedikel legen",
+    layChannel: "Kanal mit Schraube legen",
     numbers: "Maße des Pedikels",
     number: {
       width_mm: "Breite",
@@ -78,7 +78,7 @@ export const planDe: PlanTexts = {
     none: "Der Pedikel ist gemessen, hat aber noch keinen Kanal.",
     notMeasured:
       "Dieser Pedikel ist nicht gemessen. Messen Sie ihn unter Pedikel, oder setzen Sie den Kanal von Hand.",
-    lay: "Durch den Pedikel legen",
+    lay: "Durch den Pedikel legen, mit Schraube",
     byHandHere: "Von Hand setzen, ab dem Kreuz",
     move: "Verschieben …",
     back: "Zurück auf die Pedikelachse",

@@ -55,7 +55,7 @@ export const planEn = {
     measure: { left: "Measure left pedicle", right: "Measure right pedicle" },
     again: { left: "Measure left pedicle again", right: "Measure right pedicle again" },
     showDoubtful: "Show the result",
-    layChannel: "Lay the channel along the pedicle",
+    layChannel: "Lay the channel and its screw",
     numbers: "Dimensions of the pedicle",
     number: {
       width_mm: "Width",
@@ -75,7 +75,7 @@ export const planEn = {
     noVertebra: "Name a vertebra under Pedicles first.",
     none: "The pedicle is measured but has no channel yet.",
     notMeasured: "This pedicle is not measured. Measure it under Pedicles, or set the channel by hand.",
-    lay: "Lay it along the pedicle",
+    lay: "Lay it along the pedicle, with its screw",
     byHandHere: "Set by hand, from the cross",
     move: "Move …",
     back: "Back to the pedicle's axis",
