@@ -23,6 +23,7 @@ export const planDe: PlanTexts = {
   },
   bar: {
     undo: "Rückgängig",
+    redo: "Wiederholen",
     close: "Schließen",
     version: "Version",
     old: {

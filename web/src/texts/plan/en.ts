@@ -22,6 +22,7 @@ export const planEn = {
   },
   bar: {
     undo: "Undo",
+    redo: "Redo",
     close: "Close",
     version: "version",
     old: {
