@@ -105,6 +105,8 @@ def _measured_where_it_is(tablet: Tablet, side: str, channel: dict[str, Any]) ->
     tablet.tap("lay-channel")
     tablet.tap("propose-screw")
     tablet.reads("screw-numbers", "Gertzbein-Robbins A")
+    tablet.reads("clearance", "to the pedicle's measured wall")
+    expect(tablet.page.locator(".planes-large [data-clearance=ample]").first).to_be_attached()
     (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
     laid = next(one for one in vertebra["channels"] if one["side"] == side)["channel"]
     assert np.linalg.norm(

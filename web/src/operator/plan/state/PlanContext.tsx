@@ -6,6 +6,7 @@ import { useAction } from "../../../rest/useAction";
 import { useMadeBy } from "./madeBy";
 import { vertebraeOf, type PlanAnswer, type Side, type Vertebra } from "./shape";
 import { afterRedo, afterUndo, lastStep, read, withChange, type History } from "./undo";
+import { useClearances, type Clearances } from "./useClearances";
 import { usePlan } from "./usePlan";
 
 interface By {
@@ -24,6 +25,8 @@ interface PlanValue {
   /** The selected vertebra; null if there is none. */
   vertebra: Vertebra | null;
   side: Side;
+  /** Clearance of each screw to the wall; null while unknown. */
+  clearances: Clearances | null;
   busy: boolean;
   rejection: Rejection | null;
   /** Who changed the plan in between, after a change here was rejected for it. */
@@ -47,6 +50,7 @@ const STEPS = "coaxial.plan.steps";
 
 export function PlanProvider({ caseId, children }: { caseId: string; children: ReactNode }): ReactNode {
   const { plan, rejection: planRejection, isLoading, take, refetch } = usePlan(caseId);
+  const clearances = useClearances(plan?.heading.id ?? null);
   const doing = useAction();
   const [history, setHistory] = useState<History>(() => read(sessionStorage.getItem(`${STEPS}.${caseId}`)));
   const [conflict, setConflict] = useState<PlanAnswer["heading"] | null>(null);
@@ -114,6 +118,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
     askAgain: () => void refetch(),
     vertebrae,
     side,
+    clearances,
     conflict,
     setVertebra,
     setSide,
