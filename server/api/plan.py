@@ -12,6 +12,7 @@ from server.api.plan_messages import (
     ActiveChannelRequest,
     CatalogueMessage,
     ChannelRequest,
+    ClearancesMessage,
     CorrectionsRequest,
     ExpectedVersion,
     LandmarksRequest,
@@ -23,6 +24,7 @@ from server.api.plan_messages import (
     SeedRequest,
     SliceProposalMessage,
     VertebraRequest,
+    clearances_message,
     plan_message,
     proposal_message,
 )
@@ -79,6 +81,11 @@ def _add_whole(router: APIRouter, step: PlanStep, min_landmarks: int) -> None:
             lengths_mm=list(step.catalogue.lengths_mm),
             min_landmarks=min_landmarks,
         )
+
+    @router.get("/clearances", responses=rejections(409, 503))
+    def clearances() -> ClearancesMessage:
+        """Return the clearance of each planned screw to the wall, by depth."""
+        return clearances_message(*step.clearances(), margin_mm=step.wall_margin_mm)
 
 
 def _add_files(router: APIRouter, step: PlanStep, opened: CtProvider, home: Home) -> None:

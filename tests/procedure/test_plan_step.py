@@ -69,6 +69,17 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     assert screw["tolerance"]["max_offset_mm"] > 0.4
     assert screw["bone"]["mean_hu"] > 100
 
+    # Its clearance by depth is that of the figures, with the limit of the settings.
+    clearances = server.ask("GET", "/api/plan/clearances", 200)
+    assert (clearances["plan_id"], clearances["margin_mm"]) == (with_screw["heading"]["id"], 0.5)
+    by_side = {one["side"]: one["clearance"] for one in clearances["channels"]}
+    assert by_side["right"] == {"kind": "absent", "reason": "NO_SCREW"}
+    walls = ("medial_mm", "lateral_mm", "superior_mm", "inferior_mm")
+    assert by_side["left"]["against"] == "pedicle"
+    assert by_side["left"]["min_mm"] == pytest.approx(min(screw["clearance"][wall] for wall in walls))
+    assert by_side["left"]["min_mm"] == pytest.approx(min(by_side["left"]["clearance_mm"]), abs=1e-3)
+    assert 0.0 < by_side["left"]["min_depth_mm"] < screw["length_mm"]
+
     # The active channel reaches the tracking process and survives other changes.
     assert server.adopted == [] or server.adopted[-1].channel is None
     now = {**BY, "vertebra": "L3", "side": "left"}

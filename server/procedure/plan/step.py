@@ -10,9 +10,12 @@ from server.config import PlanConfig
 from server.jobs import Job, Jobs
 from server.planning.volume import measure_in_ct
 from server.procedure.ct import CtProvider
+from server.procedure.plan.active_channel import active_channel_document, active_channel_from_document
+from server.procedure.plan.clearance import ActiveBone, PlannedClearance, planned_clearances
 from server.procedure.plan.repository import PlanRepository, StoredPlan
-from server.store import CaseStore
+from server.store import CaseStore, Document
 from tracker.errors import PlanError
+from tracker.navigation.clearance import WallDistanceField
 from tracker.plan import (
     Channel,
     Landmark,
@@ -60,16 +63,27 @@ class PlanStep:
     Args:
         store: Where the plan is stored.
         jobs: Runs the measurement of pedicles.
-        opened: The CT.
+        ct_provider: The CT.
         config: Screw catalogue and margins.
+        bone_wall: Returns the bone around the active channel of this document; None while it is unknown.
     """
 
-    def __init__(self, *, store: CaseStore, jobs: Jobs, ct_provider: CtProvider, config: PlanConfig) -> None:
+    def __init__(
+        self,
+        *,
+        store: CaseStore,
+        jobs: Jobs,
+        ct_provider: CtProvider,
+        config: PlanConfig,
+        bone_wall: Callable[[Document], WallDistanceField | None],
+    ) -> None:
         self.repository = PlanRepository(store, ct_provider)
+        self._store = store
+        self._bone_wall = bone_wall
         self._jobs = jobs
         self._ct_provider = ct_provider
         self._front_margin_mm = config.front_margin_mm
-        self._wall_margin_mm = config.wall_margin_mm
+        self.wall_margin_mm = config.wall_margin_mm
         self.catalogue = ScrewCatalogue(
             diameters_mm=tuple(config.screw_diameters_mm), lengths_mm=tuple(config.screw_lengths_mm)
         )
@@ -216,6 +230,22 @@ class PlanStep:
             by, lambda plan, volume: changes.with_screw(plan, name, side, None, volume=volume)
         )
 
+    def clearances(self) -> tuple[StoredPlan, Sequence[PlannedClearance]]:
+        """Return the newest plan and the clearance of each screw in it, by depth.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, PLAN_MISSING.
+        """
+        stored = self.repository.latest()
+        document = None
+        if stored.active is not None:
+            document = active_channel_document(self._store, stored.document.case_id)
+        wall = None if document is None else self._bone_wall(document)
+        if document is None or wall is None:
+            return stored, tuple(planned_clearances(stored.plan, None))
+        bone = ActiveBone(active=active_channel_from_document(document), wall=wall)
+        return stored, tuple(planned_clearances(stored.plan, bone))
+
     def propose_slice(self, name: str) -> Proposal:
         """Return the slice nearest to the isthmuses of a vertebra; raises PlanError NO_PEDICLE_MEASURED."""
         volume = self._ct_provider.current().volume
@@ -278,7 +308,7 @@ class PlanStep:
             changes.channel_of(vertebra, side).channel,
             changes.pedicle_of(vertebra, side).used,
             self.catalogue,
-            wall_margin_mm=self._wall_margin_mm,
+            wall_margin_mm=self.wall_margin_mm,
             front_margin_mm=self._front_margin_mm,
         )
 

@@ -30,7 +30,7 @@ def plan_both_pedicles(tablet: Tablet, truth: dict[str, Any]) -> None:
 
 
 def moved_and_undone(tablet: Tablet) -> None:
-    """Move and save a channel by mistake, undo it, and choose it again."""
+    """Move and save a channel by mistake, undo, redo and undo it again by keyboard, and choose it again."""
 
     def entry() -> Any:  # noqa: ANN401  JSON
         (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
@@ -48,12 +48,19 @@ def moved_and_undone(tablet: Tablet) -> None:
     tablet.sees("move-channel")
     assert np.array(entry()) - before == pytest.approx([1.0, 0.0, 0.0], abs=1e-6)
     assert _plan(tablet)["active_channel"] is None
-    # Only its own answer, because the page also reports every few seconds whether it can sound an alarm.
-    with tablet.page.expect_response(
-        lambda answer: answer.request.method == "PUT" and answer.url.endswith("/api/plan")
+    moved = entry()
+    for act, expected in (
+        (lambda: tablet.tap("undo"), before),
+        (lambda: tablet.tap("redo"), moved),
+        (lambda: tablet.page.keyboard.press("Control+z"), before),
     ):
-        tablet.tap("undo")
-    assert entry() == pytest.approx(before, abs=1e-9)
+        # Only its own answer, because the page also reports every few seconds whether it can sound an alarm.
+        with tablet.page.expect_response(
+            lambda answer: answer.request.method == "PUT" and answer.url.endswith("/api/plan")
+        ):
+            act()
+        assert entry() == pytest.approx(expected, abs=1e-9)
+        expect(tablet.page.get_by_test_id("redo" if expected is before else "undo")).to_be_enabled()
     tablet.tap("activate")
     tablet.sees("is-active")
 
@@ -98,6 +105,8 @@ def _measured_where_it_is(tablet: Tablet, side: str, channel: dict[str, Any]) ->
     expect(tablet.page.get_by_test_id("pedicle-numbers")).to_be_in_viewport()
     tablet.tap("lay-channel")
     tablet.reads("screw-numbers", "Gertzbein-Robbins A")
+    tablet.reads("clearance", "to the pedicle's measured wall")
+    expect(tablet.page.locator(".planes-large [data-clearance=ample]").first).to_be_attached()
     (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
     laid = next(one for one in vertebra["channels"] if one["side"] == side)["channel"]
     assert np.linalg.norm(

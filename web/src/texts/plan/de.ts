@@ -23,6 +23,7 @@ export const planDe: PlanTexts = {
   },
   bar: {
     undo: "Rückgängig",
+    redo: "Wiederholen",
     close: "Schließen",
     version: "Version",
     old: {
@@ -121,6 +122,26 @@ export const planDe: PlanTexts = {
       superior: "Kranial",
       inferior: "Kaudal",
       anterior: "Vorn",
+    },
+    least: "Kleinster Abstand",
+    atDepth: "in der Tiefe",
+    against: {
+      pedicle: "zur gemessenen Wand des Pedikels",
+      bone: "zur Oberfläche des Knochens",
+      channel: "zum geplanten Kanal",
+    },
+    clearanceWaiting: "Der Abstand entlang der Schraube wird berechnet …",
+    noClearance: {
+      NO_SCREW: "Keine Schraube gewählt.",
+      NOT_MEASURED: "Kein Abstand: Der Pedikel ist nicht gemessen.",
+      BESIDE_WALL: "Kein Abstand: Kein Teil der Schraube liegt im gemessenen Teil des Pedikels.",
+    },
+    legend: "Abstand entlang der Schraube, wie gezeichnet",
+    level: {
+      ample: "mindestens",
+      low: "unter",
+      breach: "durch die Wand",
+      unknown: "hier ist keine Wand bekannt",
     },
     tolerance: "Spielraum",
     or: "oder",

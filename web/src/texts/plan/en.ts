@@ -22,6 +22,7 @@ export const planEn = {
   },
   bar: {
     undo: "Undo",
+    redo: "Redo",
     close: "Close",
     version: "version",
     old: {
@@ -118,6 +119,26 @@ export const planEn = {
       superior: "Cranial",
       inferior: "Caudal",
       anterior: "Anterior",
+    },
+    least: "Least clearance",
+    atDepth: "at a depth of",
+    against: {
+      pedicle: "to the pedicle's measured wall",
+      bone: "to the bone's surface",
+      channel: "to the planned channel",
+    },
+    clearanceWaiting: "Clearance along the screw is being computed …",
+    noClearance: {
+      NO_SCREW: "No screw is chosen.",
+      NOT_MEASURED: "No clearance: the pedicle is not measured.",
+      BESIDE_WALL: "No clearance: no part of the screw lies in the measured part of the pedicle.",
+    },
+    legend: "Clearance along the screw, as drawn",
+    level: {
+      ample: "at least",
+      low: "under",
+      breach: "through the wall",
+      unknown: "no wall known here",
     },
     tolerance: "Room for error",
     or: "or",
