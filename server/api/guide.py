@@ -89,6 +89,7 @@ def mount_guide(app: FastAPI, *, folder: Path | None) -> None:
         app.mount(ADDRESS, GuideFiles(directory=folder, html=True), name="guide")
         return
 
-    @app.get(f"{ADDRESS}/", response_class=HTMLResponse, include_in_schema=False, name="guide")
-    async def not_built() -> HTMLResponse:
+    # The page's help leads to places within the guide.
+    @app.get(f"{ADDRESS}/{{path:path}}", response_class=HTMLResponse, include_in_schema=False, name="guide")
+    async def not_built(path: str) -> HTMLResponse:  # noqa: ARG001  the same for each
         return HTMLResponse(NOT_BUILT, status_code=503)

@@ -169,6 +169,17 @@ def test_the_site_has_no_dead_link(site: Path) -> None:
     assert dead_links(site) == []
 
 
+def test_the_help_of_every_page_leads_to_a_place_of_the_site(site: Path) -> None:
+    table = text_of(ROOT / "web" / "src" / "help" / "guide.ts")
+    places = dict(re.findall(r'^  (\w+): "(.*)",$', table, re.MULTILINE))
+    assert {"signIn", "camera", "theatre", "supervisor"} <= set(places)
+    links = "".join(f"<a href='./{place}'></a>" for place in places.values())
+    (site / "help.html").write_text(links, encoding="utf-8")
+    dead = [link for link in dead_links(site) if link.startswith("help.html: ")]
+    (site / "help.html").unlink()
+    assert dead == []
+
+
 def test_the_site_loads_nothing_from_elsewhere(site: Path) -> None:
     loaded = {link for page in site.rglob("*.html") for link in Links(text_of(page)).loads}
     assert loaded

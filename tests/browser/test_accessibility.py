@@ -3,7 +3,7 @@
 import json
 import re
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, Literal
 from urllib.request import urlopen
 
 import pytest
@@ -16,6 +16,8 @@ pytestmark = pytest.mark.browser
 WEB = CHECKOUT / "web"
 AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
 STEPS = re.findall(r'\{ name: "(\w+)",', (WEB / "src" / "operator" / "pages.ts").read_text(encoding="utf-8"))
+# Where the guide is not built, its address answers how to build it.
+NOT_BUILT = 503
 THEATRE, LYING, UPRIGHT, PHONE = (1920, 1080), (1280, 800), (800, 1280), (390, 844)
 # The scene's frame contains viser's own page, which this project does not control.
 RUN = """options => axe
@@ -203,3 +205,30 @@ def test_the_keyboard_goes_past_the_shell_and_is_seen(opened: Callable[..., Page
     expect(page.locator("#step")).to_be_focused()
     page.keyboard.press("Shift+Tab")
     assert page.evaluate("getComputedStyle(document.activeElement).outlineStyle") == "solid"
+
+
+@pytest.mark.parametrize("theme", ["dark", "light"])
+@pytest.mark.parametrize(("locale", "title"), [("en-GB", "What is Coaxial?"), ("de-AT", "Was ist Coaxial?")])
+def test_without_a_session_the_page_says_what_coaxial_is_and_how_to_sign_in(
+    browser: Browser, shared_theatre: Theatre, locale: str, title: str, theme: Literal["dark", "light"]
+) -> None:
+    # This server requires no sign-in: its answer is that of one that does.
+    missing = {"code": "SESSION_NEEDED", "message": "", "remedy": "", "context": {}, "language": "en"}
+    context = browser.new_context(locale=locale, color_scheme=theme)
+    context.add_init_script(path=AXE)
+    context.route("**/api/session", lambda route: route.fulfill(status=401, json=missing))
+    page = context.new_page()
+    page.goto(f"http://127.0.0.1:{shared_theatre.port}/operator")
+    expect(page.get_by_test_id("about")).to_contain_text(title, timeout=PATIENCE_MS)
+    expect(page.locator("main")).to_contain_text("--new-operator-link")
+    # The guide needs no session.
+    guide = page.get_by_test_id("guide").get_attribute("href")
+    assert guide is not None
+    assert page.request.get(f"http://127.0.0.1:{shared_theatre.port}{guide}").status in (200, NOT_BUILT)
+    for width, height in (THEATRE, (1180, 820), PHONE):
+        page.set_viewport_size({"width": width, "height": height})
+        assert faults(page) == []
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        if width > UPRIGHT[0]:
+            expect(page.get_by_test_id("enter")).to_be_in_viewport()
+    context.close()

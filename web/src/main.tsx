@@ -34,6 +34,7 @@ import "./theme/cuts.css";
 import "./theme/alarms.css";
 import "./theme/shell.css";
 import "./theme/signin.css";
+import "./theme/help.css";
 import "./theme/theatre.css";
 import "./theme/layouts.css";
 import "./theme/operator.css";

@@ -76,7 +76,7 @@ def test_files_outside_the_guide_are_not_given(built: Path) -> None:
     assert client_of(built).get("/docs/%2e%2e/secret.txt").status_code == 404
 
 
-@pytest.mark.parametrize("address", ["/docs", "/docs/"])
+@pytest.mark.parametrize("address", ["/docs", "/docs/", "/docs/camera/"])
 def test_a_missing_build_of_the_guide_states_how_to_build_it(address: str) -> None:
     answer = client_of(None).get(address)
     assert answer.status_code == 503

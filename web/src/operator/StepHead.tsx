@@ -1,5 +1,6 @@
 import { useEffect, useRef, type ReactNode, type RefObject } from "react";
 import { useLocation } from "wouter";
+import { HelpButton } from "../help/HelpButton";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useTexts } from "../texts/TextsContext";
 import { NextStep } from "./NextStep";
@@ -29,6 +30,7 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
     <header className="step-head" ref={head}>
       <div className="step-title">
         <h2>{texts.page[page.name]}</h2>
+        <HelpButton place={page.name} />
         <NextStep page={page} />
       </div>
       <RejectionNote rejection={rejection} />

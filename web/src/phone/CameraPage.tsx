@@ -1,6 +1,7 @@
 import { Button } from "@mantine/core";
 import { useRef, type ReactNode } from "react";
 import { SignedIn } from "../app/SignedIn";
+import { HelpButton } from "../help/HelpButton";
 import { useSession } from "../app/session";
 import { useTexts } from "../texts/TextsContext";
 import { unfit } from "./noCamera";
@@ -25,6 +26,7 @@ export function CameraPage(): ReactNode {
     <main className="phone" data-testid="phone" data-state={sending.state}>
       <header className="phone-top">
         <h1>{texts.title}</h1>
+        <HelpButton place="phone" />
         <SignedIn />
       </header>
       <div className="phone-preview" data-on={isOn}>

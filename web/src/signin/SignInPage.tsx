@@ -6,6 +6,8 @@ import { homeOf } from "../app/views";
 import type { Rejection } from "../rest/client";
 import type { SignInTexts } from "../texts/signin/en";
 import { useTexts } from "../texts/TextsContext";
+import { About } from "./About";
+import { LinkHelp } from "./LinkHelp";
 import { tokenIn } from "./token";
 import { useSignIn } from "./useSignIn";
 
@@ -25,52 +27,63 @@ export function SignInPage(): ReactNode {
   const token = tokenIn(typed);
   const message = messageFor(session, rejection, texts);
   const waiting = busy || (session.state === "asking" && !session.silent);
+  const isNew = !waiting && message.kind === "needed";
   return (
-    <main className="enter">
-      <header>
-        <img src="/coaxial.svg" alt="" width={72} height={72} />
-        <h1>{all.product}</h1>
-        <p className="notice">{all.notice}</p>
-      </header>
-      {waiting ? (
-        <p role="status" className="enter-waiting">
-          <Loader size="md" aria-hidden="true" /> {busy ? texts.entering : texts.asking}
-        </p>
-      ) : (
-        <section role={rejection === null ? "status" : "alert"} data-testid="enter" data-kind={message.kind}>
-          <h2>{message.title}</h2>
-          <p>{message.sentence}</p>
-        </section>
-      )}
-      {session.state === "in" && !busy && (
-        <Link className="enter-on" href={homeOf(session.who.role)}>
-          {texts.goOn}
-        </Link>
-      )}
-      {session.state !== "asking" && !busy && (
-        <form
-          onSubmit={(event) => {
-            event.preventDefault();
-            if (token !== null) signIn(token);
-          }}
-        >
-          <TextInput
-            size="lg"
-            type="password"
-            autoComplete="off"
-            label={texts.paste}
-            description={texts.pasteHint}
-            error={typed.trim() !== "" && token === null ? texts.noLink : undefined}
-            value={typed}
-            onChange={(event) => {
-              setTyped(event.currentTarget.value);
+    <main className="enter" data-new={isNew || undefined}>
+      <div className="enter-column">
+        <header>
+          <img src="/coaxial.svg" alt="" width={72} height={72} />
+          <h1>{all.product}</h1>
+          <p className="notice">{all.notice}</p>
+        </header>
+        {isNew && <About />}
+      </div>
+      <div className="enter-column">
+        {waiting ? (
+          <p role="status" className="enter-waiting">
+            <Loader size="md" aria-hidden="true" /> {busy ? texts.entering : texts.asking}
+          </p>
+        ) : (
+          <section
+            role={rejection === null ? "status" : "alert"}
+            data-testid="enter"
+            data-kind={message.kind}
+          >
+            <h2>{message.title}</h2>
+            <p>{message.sentence}</p>
+          </section>
+        )}
+        {session.state === "in" && !busy && (
+          <Link className="enter-on" href={homeOf(session.who.role)}>
+            {texts.goOn}
+          </Link>
+        )}
+        {session.state !== "asking" && !busy && (
+          <form
+            onSubmit={(event) => {
+              event.preventDefault();
+              if (token !== null) signIn(token);
             }}
-          />
-          <Button type="submit" size="lg" disabled={token === null}>
-            {texts.signIn}
-          </Button>
-        </form>
-      )}
+          >
+            <TextInput
+              size="lg"
+              type="password"
+              autoComplete="off"
+              label={texts.paste}
+              description={texts.pasteHint}
+              error={typed.trim() !== "" && token === null ? texts.noLink : undefined}
+              value={typed}
+              onChange={(event) => {
+                setTyped(event.currentTarget.value);
+              }}
+            />
+            <Button type="submit" size="lg" disabled={token === null}>
+              {texts.signIn}
+            </Button>
+          </form>
+        )}
+        {session.state === "out" && !busy && <LinkHelp />}
+      </div>
     </main>
   );
 }

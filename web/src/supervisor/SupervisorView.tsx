@@ -5,6 +5,7 @@ import { ViewSwitch } from "../app/ViewSwitch";
 import { ChosenTile } from "../cuts/CutTile";
 import { CutsProvider } from "../cuts/CutsContext";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
+import { HelpButton } from "../help/HelpButton";
 import { PictureSize } from "../live/PictureSize";
 import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
@@ -51,6 +52,7 @@ export function SupervisorView(): ReactNode {
           <Viewers />
           <PictureSize />
           <ThemeButton />
+          <HelpButton place="supervisor" />
           <SignedIn />
         </header>
         <AlarmsAfterFirstMessage />

@@ -6,6 +6,7 @@ import type { AuditTexts } from "./audit/en";
 import type { CameraTexts } from "./camera/en";
 import type { CaseTexts } from "./case/en";
 import type { CheckTexts } from "./check/en";
+import type { HelpTexts } from "./help/en";
 import type { SignInTexts } from "./signin/en";
 import type { CertificateTexts } from "./certificate/en";
 import type { LatencyTexts } from "./latency/en";
@@ -122,6 +123,7 @@ export interface Texts {
   shell: ShellTexts;
   connection: ConnectionTexts;
   signIn: SignInTexts;
+  help: HelpTexts;
   rest: RestTexts;
   restart: RestartTexts;
   operator: OperatorTexts;

@@ -3,6 +3,7 @@ import { alarmsDe } from "./alarmsDe";
 import { cameraDe } from "./camera/de";
 import { caseDe } from "./case/de";
 import { checkDe } from "./check/de";
+import { helpDe } from "./help/de";
 import { signInDe } from "./signin/de";
 import { certificateDe } from "./certificate/de";
 import { latencyDe } from "./latency/de";
@@ -161,6 +162,7 @@ export const de: Texts = {
   shell: shellDe,
   connection: connectionDe,
   signIn: signInDe,
+  help: helpDe,
   rest: restDe,
   restart: restartDe,
   operator: operatorDe,

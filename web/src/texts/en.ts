@@ -3,6 +3,7 @@ import { alarmsEn } from "./alarmsEn";
 import { cameraEn } from "./camera/en";
 import { caseEn } from "./case/en";
 import { checkEn } from "./check/en";
+import { helpEn } from "./help/en";
 import { signInEn } from "./signin/en";
 import { certificateEn } from "./certificate/en";
 import { latencyEn } from "./latency/en";
@@ -163,6 +164,7 @@ export const en: Texts = {
   shell: shellEn,
   connection: connectionEn,
   signIn: signInEn,
+  help: helpEn,
   rest: restEn,
   restart: restartEn,
   operator: operatorEn,

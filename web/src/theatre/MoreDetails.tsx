@@ -2,6 +2,7 @@ import { useRef, type ReactNode } from "react";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { GuidingSoundSettings } from "../guidance/GuidingSoundSettings";
+import { HelpButton } from "../help/HelpButton";
 import { PictureSize } from "../live/PictureSize";
 import { DetailsPane } from "../panes/DetailsPane";
 import { MarkersPane } from "../panes/MarkersPane";
@@ -31,6 +32,7 @@ export function MoreDetails({ layouts }: { layouts: Layouts }): ReactNode {
           <ViewSwitch />
           <PictureSize />
           <ThemeButton />
+          <HelpButton place="theatre" />
           <RecordingState testId="recording-more" />
           <SignedIn />
         </div>

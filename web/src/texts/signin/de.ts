@@ -1,10 +1,40 @@
 import type { SignInTexts } from "./en";
 
 export const signInDe: SignInTexts = {
+  about: {
+    title: "Was ist Coaxial?",
+    drawing:
+      "Eine Kamera sieht den Marker an einem Bohrer, dessen Spitze in einem Wirbel ist. Ein Bildschirm zeigt den Bohrer und den geplanten Kanal.",
+    sentences: [
+      "Coaxial hilft beim Bohren entlang eines geplanten Kanals in einem Wirbel.",
+      "Eine Kamera sieht ein gedrucktes Quadrat am Bohrer; daraus berechnet Coaxial, wo Spitze und Achse sind.",
+      "Der Bildschirm zeigt beides zusammen mit der Planung: im Live-Video, in Zahlen und im CT.",
+    ],
+    camera: "Kamera",
+    marker: "Marker",
+    drill: "Bohrer",
+    channel: "geplanter Kanal",
+    screen: "Bildschirm",
+  },
+  help: {
+    title: "Wo ist mein Link?",
+    started: {
+      who: "Sie haben den Server gestartet",
+      how: "Das Terminal, in dem er läuft, hat den Link für die Bedienung ausgegeben:",
+    },
+    invited: {
+      who: "Sie wurden eingeladen",
+      how: "Öffnen Sie den Link der Bedienung oder scannen Sie den Code mit diesem Gerät.",
+    },
+    lost: {
+      who: "Der Link ist verloren oder verbraucht",
+      how: "Bitten Sie die Bedienung um eine neue Einladung. Gibt es keine Bedienung, beenden Sie den Server (das unterbricht die Navigation) und starten Sie ihn mit einem dieser Befehle:",
+    },
+    guide: "Handbuch (englisch)",
+  },
   needed: {
     title: "Anmelden",
-    sentence:
-      "Öffnen Sie den Link Ihrer Einladung oder scannen Sie den Code. Der erste Link für die Bedienung steht in dem Fenster, in dem der Server gestartet wurde.",
+    sentence: "Öffnen Sie den Link, den Sie erhalten haben. Damit wird dieses Gerät angemeldet.",
   },
   expired: {
     title: "Ihre Sitzung ist beendet",

@@ -1,8 +1,38 @@
 export const signInEn = {
+  about: {
+    title: "What is Coaxial?",
+    drawing:
+      "A camera sees the marker on a drill, whose tip is in a vertebra. A screen shows the drill beside the planned channel.",
+    sentences: [
+      "Coaxial helps a surgeon to drill along a planned channel in a vertebra.",
+      "A camera sees a printed square on the drill, from which Coaxial computes where tip and axis are.",
+      "The screen shows them beside the plan: in the live video, in numbers and in the CT.",
+    ],
+    camera: "camera",
+    marker: "marker",
+    drill: "drill",
+    channel: "planned channel",
+    screen: "screen",
+  },
+  help: {
+    title: "Where is my link?",
+    started: {
+      who: "You started the server",
+      how: "The terminal in which it runs printed the operator's link:",
+    },
+    invited: {
+      who: "You were invited",
+      how: "Open the link from the operator, or scan its code with this device.",
+    },
+    lost: {
+      who: "The link is lost or used",
+      how: "Ask the operator for a new invitation. If there is no operator, stop the server, which interrupts navigation, and start it with one of these:",
+    },
+    guide: "User guide",
+  },
   needed: {
     title: "Sign in",
-    sentence:
-      "Open the link in your invitation, or scan its code. The operator's first link is shown in the window in which the server was started.",
+    sentence: "Open the link that you were given. It signs this device in.",
   },
   expired: {
     title: "Your session has ended",

@@ -1,0 +1,21 @@
+import type { ReactNode } from "react";
+import { useTexts } from "../texts/TextsContext";
+import { guideAddress, type GuidePlace } from "./guide";
+
+/** The `?` of a page: opens the guide at its place, in a tab of its own. */
+export function HelpButton({ place }: { place: GuidePlace }): ReactNode {
+  const texts = useTexts().help;
+  return (
+    <a
+      className="help-button"
+      href={guideAddress(place)}
+      target="_blank"
+      rel="noreferrer"
+      title={texts.open}
+      aria-label={texts.open}
+      data-testid="help"
+    >
+      ?
+    </a>
+  );
+}
