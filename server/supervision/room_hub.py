@@ -78,6 +78,7 @@ class RoomHub:
         return ShownImage(
             moment=Moment(image_number=snapshot.image_number, captured_at_s=snapshot.captured_at_s),
             size_wh_px=snapshot.size_wh_px,
+            ct_id=snapshot.setup.ct_id,
         )
 
     @contextmanager
@@ -118,7 +119,10 @@ class RoomHub:
 
     def state(self) -> RoomState:
         """Return the state of the room now."""
-        now_s, asking = self.now_s, self._holds.requests
+        now_s, asking, shown = self.now_s, self._holds.requests, self.shown
+        # Without an image it is unknown which CT is navigated; the pages then show no cut.
+        if shown is not None:
+            self.room.marks.retain_ct(shown.ct_id)
         return RoomState(
             now_s=now_s,
             fades_after_s=self.room.marks.fades_after_s,
