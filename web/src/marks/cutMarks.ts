@@ -8,7 +8,7 @@ import {
   type Vec2,
 } from "../operator/plan/slices/place";
 import { dot, minus, plus, times, vec3, type Vec3 } from "../operator/plan/slices/vectors";
-import type { CutPlane, Point, Shape } from "../room/messages";
+import type { CutPlane, MarkSurface, Moment, Point, Shape } from "../room/messages";
 
 /** A mark is drawn in a cut whose plane passes within this distance, and fainter with it. */
 export const MAX_DISTANCE_MM = 2;
@@ -29,17 +29,27 @@ export interface Stroke {
 
 /** The plane of a cut, as it is sent: rounded, since a message is short. */
 export function planeOf(grid: PixelGrid, ctId: string): CutPlane {
-  const rounded = ([x, y, z]: Vec3, digits: number): [number, number, number] => [
-    Number(x.toFixed(digits)),
-    Number(y.toFixed(digits)),
-    Number(z.toFixed(digits)),
-  ];
   return {
     ct_id: ctId,
     origin_in_vertebra_mm: rounded(lpsFromPlane(grid, [0, 0]), 2),
     right_in_vertebra: rounded(rightOf(grid), 5),
     down_in_vertebra: rounded(downOf(grid), 5),
   };
+}
+
+/** What a point in the patient is marked on: the axial plane through it, with the point at (0, 0). */
+export function markSurfaceAt(
+  point: Vec3,
+  ctId: string,
+  { image_number, captured_at_s }: Moment,
+): MarkSurface {
+  const plane: CutPlane = {
+    ct_id: ctId,
+    origin_in_vertebra_mm: rounded(point, 2),
+    right_in_vertebra: [1, 0, 0],
+    down_in_vertebra: [0, 1, 0],
+  };
+  return { image_number, captured_at_s, plane };
 }
 
 /** The patient's point at a place of a plane; null if the plane is not three vectors. */
@@ -157,6 +167,10 @@ function linesOf(shape: Shape, points: readonly Point[]): Point[][] {
 
 function vectorsOf(plane: CutPlane): (Vec3 | null)[] {
   return [plane.origin_in_vertebra_mm, plane.right_in_vertebra, plane.down_in_vertebra].map(vec3);
+}
+
+function rounded([x, y, z]: Vec3, digits: number): [number, number, number] {
+  return [Number(x.toFixed(digits)), Number(y.toFixed(digits)), Number(z.toFixed(digits))];
 }
 
 function tenths(value: number): number {

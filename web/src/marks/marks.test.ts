@@ -4,6 +4,8 @@ import { Live } from "../live/live";
 import type { ClientMessage } from "../room/messages";
 import { DisplayedImage } from "./displayedImage";
 import { MarksInput } from "./marksInput";
+import { markSurfaceAt } from "./cutMarks";
+import { bonePoint } from "./useBoneMarks";
 import { isOnImage, onImage, onStage, placed } from "./place";
 
 const MOMENT = { image_number: 7, captured_at_s: 4 };
@@ -157,6 +159,27 @@ describe("a hand", () => {
     made.settle(() => true, 100);
     expect(made.own).toEqual([]);
   });
+
+  test("a click on the bone is a point on the axial plane through it", () => {
+    const { made, said: messages } = hand();
+    const point = bonePoint({ kind: "coaxial-bone-point", point_in_vertebra_mm: [1.234, -2, 1100.5] });
+    if (point === null) throw new Error("no point");
+    made.dot(markSurfaceAt(point, "ct-1", MOMENT), 0);
+    const plane = {
+      ct_id: "ct-1",
+      origin_in_vertebra_mm: [1.23, -2, 1100.5],
+      right_in_vertebra: [1, 0, 0],
+      down_in_vertebra: [0, 1, 0],
+    };
+    expect(messages).toEqual([{ draw: { key: 1, shape: "pen", points: [[0, 0]], plane, ...MOMENT } }]);
+  });
+
+  test.each([null, "text", { kind: "coaxial-scene" }, { kind: "coaxial-bone-point" }])(
+    "another message of the scene (%j) is no click",
+    (data) => {
+      expect(bonePoint(data)).toBeNull();
+    },
+  );
 
   test("drawings that are never confirmed are dropped", () => {
     const { made } = hand(() => false);

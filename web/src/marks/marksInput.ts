@@ -98,6 +98,12 @@ export class MarksInput {
     this.sentAtMs = nowMs;
   }
 
+  /** Draws a single point, at the origin of its plane. */
+  dot(surface: MarkSurface, nowMs: number): void {
+    this.down("pen", [0, 0], surface, nowMs);
+    this.up(nowMs);
+  }
+
   move(at: Point, nowMs: number): void {
     const { drawing } = this;
     if (drawing === null) return;
