@@ -116,7 +116,7 @@ def registered_checked_and_navigated(
     tablet.tap("scene-operation")
     tablet.page.wait_for_function(HAS_ANGLE)
     print(  # noqa: T201
-        f"{len(tablet.taps)} taps and {time.monotonic() - began_s:.0f} s to navigation, both pedicles planned:"
+        f"{len(tablet.taps)} taps and {time.monotonic() - began_s:.0f} s to navigation, with both pedicles:"
         f" {', '.join(tablet.taps)}"
     )
     assert len(tablet.taps) <= MAX_TAPS

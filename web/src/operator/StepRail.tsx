@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
+import { HelpButton } from "../help/HelpButton";
 import { ThemeButton } from "../theme/ThemeButton";
 import { useTexts } from "../texts/TextsContext";
 import { sentence } from "./parts/format";
@@ -47,7 +48,10 @@ export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
           );
         })}
       </ol>
-      <ThemeButton />
+      <div className="rail-more">
+        <ThemeButton />
+        {now !== null && <HelpButton place={now.name} />}
+      </div>
     </nav>
   );
 }

@@ -67,7 +67,7 @@ export const cameraDe: CameraTexts = {
   tiltWanted: "mindestens",
   ways: { up: "Oberkante", down: "Unterkante", left: "linke Kante", right: "rechte Kante" },
   views: "Ansichten",
-  coverage: "Abgedeckter Bildbereich",
+  coverage: "Bildabdeckung",
   missing: "Es fehlt noch",
   enough: "Genug Ansichten. Jetzt kalibrieren.",
   calibrate: "Kalibrieren",
