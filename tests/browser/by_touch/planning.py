@@ -65,6 +65,31 @@ def moved_and_undone(tablet: Tablet) -> None:
     tablet.sees("is-active")
 
 
+def measured_by_hand(tablet: Tablet) -> None:
+    """Measure a distance and a right angle on the large slice, and remove the measurement."""
+    page = tablet.page
+    hands = page.get_by_role("toolbar", name="Slice tools")
+    hands.get_by_text("Measure", exact=True).tap()
+    large = page.locator(".planes-large .slice-stage").bounding_box()
+    assert large is not None
+    cross = _cross(tablet)
+    x, y = large["x"] + 0.4 * large["width"], large["y"] + 0.4 * large["height"]
+    for to_x, to_y in ((x, y), (x + 90, y), (x + 90, y + 60)):
+        page.touchscreen.tap(to_x, to_y)
+    px_per_mm = page.evaluate(PX_PER_MM)
+    tablet.reads("measurement", "°")
+    first_mm, second_mm, angle_deg = map(
+        float, re.findall(r"[\d.]+", page.get_by_test_id("measurement").inner_text())
+    )
+    assert (first_mm, second_mm) == pytest.approx((90 / px_per_mm, 60 / px_per_mm), abs=0.06)
+    assert angle_deg == 90.0
+    tablet.tap("remove-measurement")
+    expect(page.get_by_test_id("measurement-drawn")).to_have_count(0)
+    # The taps measured, and did not move the cross.
+    assert _cross(tablet) == pytest.approx(cross)
+    hands.get_by_text("Scroll", exact=True).tap()
+
+
 def with_lines(tablet: Tablet) -> None:
     """Lay the proposed lines, with the needles 20.5 mm to each side."""
     tablet.tap("part-lines")

@@ -16,12 +16,13 @@ import { Cross } from "./Cross";
 import { Handle } from "./Handle";
 import { LandmarksDrawing } from "./LandmarksDrawing";
 import { LinesDrawing } from "./LinesDrawing";
+import { MeasureDrawing } from "./MeasureDrawing";
 import { PedicleDrawing } from "./PedicleDrawing";
 
 /** All parts of the plan on this slice, the cross, and unsaved drafts. */
 export function PlanDrawing({ plane, projection }: { plane: PlaneName; projection: Projection }): ReactNode {
   const { vertebrae, vertebra } = usePlanning();
-  const { look } = useSlices();
+  const { look, plane: largePlane } = useSlices();
   const { part, apartMm } = useWork();
   const reference = vertebra?.references[0] ?? null;
   const lines = draftLines(look.cursor, apartMm);
@@ -37,6 +38,7 @@ export function PlanDrawing({ plane, projection }: { plane: PlaneName; projectio
       )}
       <Cross projection={projection} cursor={look.cursor} />
       <DraftDrawing plane={plane} projection={projection} />
+      <MeasureDrawing projection={projection} isLarge={plane === largePlane} />
     </>
   );
 }
