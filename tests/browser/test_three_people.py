@@ -9,7 +9,14 @@ from playwright.sync_api import Browser, Page, ViewportSize, expect
 
 from server.config import Config
 from tests.browser.by_touch.people import invite, left, let_in, printed_link
-from tests.browser.by_touch.planning import moved_and_undone, plan_both_pedicles, with_landmarks, with_lines
+from tests.browser.by_touch.planning import (
+    dragged_on_each_plane,
+    measured_by_hand,
+    moved_and_undone,
+    plan_both_pedicles,
+    with_landmarks,
+    with_lines,
+)
 from tests.browser.by_touch.registering import check_on_a_landmark, register_by_points
 from tests.browser.by_touch.setting_up import board_views, calibrate_camera, calibrate_tool, open_case
 from tests.browser.by_touch.tablet import LANDSCAPE, Tablet, tablet_at
@@ -88,7 +95,9 @@ def test_a_procedure_by_touch_watched_and_supervised(
     plan_both_pedicles(tablet, truth)
     with tablet.uncounted():
         moved_and_undone(tablet)
+        dragged_on_each_plane(tablet)
         with_lines(tablet)
+        measured_by_hand(tablet)
     with_landmarks(tablet, truth)
     assert steps(tablet)[:4] == ["done", "done", "done", "missing"]
 

@@ -65,6 +65,76 @@ def moved_and_undone(tablet: Tablet) -> None:
     tablet.sees("is-active")
 
 
+def dragged_on_each_plane(tablet: Tablet) -> None:
+    """Drag both ends and the middle of a channel on every large plane, also oblique; then discard it."""
+    tablet.tap("part-channel")
+    tablet.tap("move-channel")
+    for plane in ("sagittal", "coronal", "along", "across", "axial"):
+        tablet.tap(f"enlarge-{plane}")
+        expect(tablet.page.locator(f".planes-large [data-plane={plane}]")).not_to_have_attribute(
+            "data-late", "true", timeout=tablet.patience_ms
+        )
+        for moved in ("entry", "target", "whole"):
+            before = _draft(tablet)
+            _dragged(tablet, f"handle-{moved}", (12.0, 9.0))
+            shift = _draft(tablet) - before
+            expected = np.array([moved != "target", moved != "entry"]) * 15.0 / _px_per_mm(tablet)
+            # Positions are stated to 0.1 mm.
+            assert np.linalg.norm(shift, axis=1) == pytest.approx(expected, abs=0.2), (plane, moved)
+    tablet.tap("place-at-cross")
+    tablet.tap("discard-channel")
+    tablet.sees("move-channel")
+
+
+def _draft(tablet: Tablet) -> Any:  # noqa: ANN401  an array
+    """Entry and end (2, 3) of the channel that is being moved."""
+    stated = [
+        tablet.page.get_by_test_id(f"handle-{end}").get_attribute("aria-valuetext") or ""
+        for end in ("entry", "target")
+    ]
+    return np.array([[float(one) for one in point.split(", ")] for point in stated])
+
+
+def _dragged(tablet: Tablet, handle: str, by_px: tuple[float, float]) -> None:
+    box = tablet.page.get_by_test_id(handle).locator(".draw-handle-touch").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    mouse = tablet.page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x + by_px[0], y + by_px[1], steps=2)
+    mouse.up()
+
+
+def _px_per_mm(tablet: Tablet) -> float:
+    return float(tablet.page.evaluate(PX_PER_MM))
+
+
+def measured_by_hand(tablet: Tablet) -> None:
+    """Measure a distance and a right angle on the large slice, and remove the measurement."""
+    page = tablet.page
+    hands = page.get_by_role("toolbar", name="Slice tools")
+    hands.get_by_text("Measure", exact=True).tap()
+    large = page.locator(".planes-large .slice-stage").bounding_box()
+    assert large is not None
+    cross = _cross(tablet)
+    x, y = large["x"] + 0.4 * large["width"], large["y"] + 0.4 * large["height"]
+    for to_x, to_y in ((x, y), (x + 90, y), (x + 90, y + 60)):
+        page.touchscreen.tap(to_x, to_y)
+    px_per_mm = _px_per_mm(tablet)
+    tablet.reads("measurement", "°")
+    first_mm, second_mm, angle_deg = map(
+        float, re.findall(r"[\d.]+", page.get_by_test_id("measurement").inner_text())
+    )
+    assert (first_mm, second_mm) == pytest.approx((90 / px_per_mm, 60 / px_per_mm), abs=0.06)
+    assert angle_deg == 90.0
+    tablet.tap("remove-measurement")
+    expect(page.get_by_test_id("measurement-drawn")).to_have_count(0)
+    # The taps measured, and did not move the cross.
+    assert _cross(tablet) == pytest.approx(cross)
+    hands.get_by_text("Scroll", exact=True).tap()
+
+
 def with_lines(tablet: Tablet) -> None:
     """Lay the proposed lines, with the needles 20.5 mm to each side."""
     tablet.tap("part-lines")

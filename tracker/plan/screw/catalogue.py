@@ -30,7 +30,7 @@ class ScrewCatalogue:
                     "CATALOGUE_INVALID",
                     f"the screw catalogue's {name} are {list(values)}, "
                     "needed one or more between 0 and 200 mm",
-                    "Correct plan.screws in the config.",
+                    "Correct plan.screw_diameters_mm and plan.screw_lengths_mm in the config.",
                     {"setting": name, "values": str(list(values))},
                 )
             object.__setattr__(self, name, values)

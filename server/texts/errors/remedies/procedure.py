@@ -410,7 +410,7 @@ PROCEDURE: tuple[Text, ...] = (
         "de": "Einen Bereich angeben, in dem Knochen ist, oder eine andere Schwelle.",
     },
     {
-        "en": "Correct plan.screws in the config.",
-        "de": "plan.screws in den Einstellungen berichtigen.",
+        "en": "Correct plan.screw_diameters_mm and plan.screw_lengths_mm in the config.",
+        "de": "plan.screw_diameters_mm und plan.screw_lengths_mm in den Einstellungen berichtigen.",
     },
 )

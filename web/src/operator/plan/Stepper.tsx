@@ -7,18 +7,29 @@ interface StepperProps {
   /** Formatted value with unit. */
   value: string;
   disabled?: boolean;
+  /** Whether there is a smaller or larger value. */
+  hasLess?: boolean;
+  hasMore?: boolean;
   onStep: (direction: 1 | -1) => void;
 }
 
 /** A number with buttons to decrease and increase it, for use with gloves. */
-export function Stepper({ name, label, value, disabled = false, onStep }: StepperProps): ReactNode {
+export function Stepper({
+  name,
+  label,
+  value,
+  disabled = false,
+  hasLess = true,
+  hasMore = true,
+  onStep,
+}: StepperProps): ReactNode {
   const texts = useTexts().plan;
   return (
     <div className="stepper" role="group" aria-label={label}>
       <span className="stepper-label">{label}</span>
       <button
         type="button"
-        disabled={disabled}
+        disabled={disabled || !hasLess}
         aria-label={`${label}: ${texts.less}`}
         data-testid={`${name}-less`}
         onClick={() => {
@@ -30,7 +41,7 @@ export function Stepper({ name, label, value, disabled = false, onStep }: Steppe
       <output>{value}</output>
       <button
         type="button"
-        disabled={disabled}
+        disabled={disabled || !hasMore}
         aria-label={`${label}: ${texts.more}`}
         data-testid={`${name}-more`}
         onClick={() => {

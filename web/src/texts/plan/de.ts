@@ -94,9 +94,14 @@ export const planDe: PlanTexts = {
   },
   byHand: {
     title: "Kanal von Hand",
-    hint: "Ziehen Sie die Griffe auf der großen Schicht oder verwenden Sie die Tasten. Gespeichert wird erst, wenn Sie den Kanal übernehmen.",
+    hint: "Ziehen Sie Eintritt, Mitte oder Ende an ihren Griffen auf der großen Schicht oder verwenden Sie die Tasten. Gespeichert wird erst, wenn Sie den Kanal übernehmen.",
     what: "Bewegter Teil",
     moved: { whole: "Ganz", entry: "Eintritt", target: "Ende" },
+    atCross: {
+      whole: "Mitte an das Kreuz setzen",
+      entry: "Eintritt an das Kreuz setzen",
+      target: "Ende an das Kreuz setzen",
+    },
     turn: "Um den Eintritt drehen, je 1°",
     transverse: "transv.",
     sagittal: "sag.",

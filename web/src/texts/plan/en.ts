@@ -91,9 +91,14 @@ export const planEn = {
   },
   byHand: {
     title: "Channel by hand",
-    hint: "Drag the handles on the large slice, or use the buttons. Nothing is saved until you choose to keep the channel.",
+    hint: "Drag entry, middle or end by their handles on the large slice, or use the buttons. Nothing is saved until you choose to keep the channel.",
     what: "Part to move",
     moved: { whole: "All of it", entry: "Entry", target: "End" },
+    atCross: {
+      whole: "Place its middle at the cross",
+      entry: "Place the entry at the cross",
+      target: "Place the end at the cross",
+    },
     turn: "Rotate about the entry, by 1°",
     transverse: "trans.",
     sagittal: "sag.",

@@ -18,6 +18,8 @@ import {
   extendChannel,
   lengthMm,
   MAX_DIAMETER_MM,
+  MOVED,
+  placeChannel,
   shiftChannel,
   rotateChannel,
   type Draft,
@@ -25,7 +27,6 @@ import {
 } from "./draft";
 
 const STEP_MM = 0.5;
-const MOVED: readonly Moved[] = ["whole", "entry", "target"];
 
 interface ChannelByHandProps {
   of: string;
@@ -38,7 +39,7 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
   const texts = useTexts().plan.byHand;
   const { vertebra, side, change, busy } = usePlanning();
   const { setDraft } = useWork();
-  const { largePlace } = useSlices();
+  const { largePlace, look } = useSlices();
   const [what, setWhat] = useState<Moved>("whole");
   const put = (channel: Draft): void => {
     setDraft({ of, channel });
@@ -85,6 +86,17 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
           put(shiftChannel(draft, what, shift));
         }}
       />
+      <Button
+        size="lg"
+        variant="default"
+        fullWidth
+        data-testid="place-at-cross"
+        onClick={() => {
+          put(placeChannel(draft, what, look.cursor));
+        }}
+      >
+        {texts.atCross[what]}
+      </Button>
       <Stepper
         name="turn"
         label={texts.turn}

@@ -25,6 +25,8 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
   const texts = useTexts().plan.screw;
   const { change, busy } = usePlanning();
   const catalogue = useQuery((signal) => getPlanCatalogue({ signal })).data;
+  const diameters = catalogue?.diameters_mm ?? [];
+  const lengths = catalogue?.lengths_mm ?? [];
   const path = { name: vertebra, side: planned.side };
   const screw = planned.screws[0] ?? null;
   const choose = (size: { diameter_mm: number; length_mm: number } | null): void => {
@@ -58,8 +60,10 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
             label={texts.diameter}
             value={`${screw.diameter_mm} mm`}
             disabled={busy || catalogue === null}
+            hasLess={neighbourOf(diameters, screw.diameter_mm, -1) !== null}
+            hasMore={neighbourOf(diameters, screw.diameter_mm, 1) !== null}
             onStep={(direction) => {
-              const diameter_mm = neighbourOf(catalogue?.diameters_mm ?? [], screw.diameter_mm, direction);
+              const diameter_mm = neighbourOf(diameters, screw.diameter_mm, direction);
               if (diameter_mm !== null) choose({ diameter_mm, length_mm: screw.length_mm });
             }}
           />
@@ -68,8 +72,10 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
             label={texts.length}
             value={`${screw.length_mm} mm`}
             disabled={busy || catalogue === null}
+            hasLess={neighbourOf(lengths, screw.length_mm, -1) !== null}
+            hasMore={neighbourOf(lengths, screw.length_mm, 1) !== null}
             onStep={(direction) => {
-              const length_mm = neighbourOf(catalogue?.lengths_mm ?? [], screw.length_mm, direction);
+              const length_mm = neighbourOf(lengths, screw.length_mm, direction);
               if (length_mm !== null) choose({ diameter_mm: screw.diameter_mm, length_mm });
             }}
           />

@@ -5,6 +5,7 @@ import {
   isSame,
   extendChannel,
   lengthMm,
+  placeChannel,
   shiftChannel,
   rotateChannel,
   type Draft,
@@ -19,6 +20,17 @@ test("the whole channel, its entry or its end is moved", () => {
   expect(shiftChannel(DRAFT, "target", [1, 0, 2])).toMatchObject({
     entry: [15, 20, 5],
     target: [16, -20, 7],
+  });
+});
+
+test("its entry, its end or its middle is placed at a point", () => {
+  expect(placeChannel(DRAFT, "entry", [1, 2, 3])).toEqual({ ...DRAFT, entry: [1, 2, 3] });
+  expect(placeChannel(DRAFT, "target", [1, 2, 3])).toEqual({ ...DRAFT, target: [1, 2, 3] });
+  // The middle is at (15, 0, 5).
+  expect(placeChannel(DRAFT, "whole", [16, 1, 7])).toEqual({
+    ...DRAFT,
+    entry: [16, 21, 7],
+    target: [16, -19, 7],
   });
 });
 
@@ -39,6 +51,10 @@ test("to the head the sagittal angle is positive", () => {
 test("it grows at its end, and never turns over", () => {
   expect(extendChannel(DRAFT, 5).target).toEqual([15, -25, 5]);
   expect(lengthMm(extendChannel(DRAFT, -99))).toBe(1);
+});
+
+test("its ends never come together", () => {
+  expect(placeChannel(DRAFT, "entry", DRAFT.target)).toEqual(DRAFT);
 });
 
 test("a point beside the axis", () => {

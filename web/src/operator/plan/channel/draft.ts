@@ -10,6 +10,7 @@ export interface Draft {
 
 export const MAX_DIAMETER_MM = 20;
 export const MIN_DIAMETER_MM = 1;
+const MIN_LENGTH_MM = 1;
 
 export function draftOf(channel: Channel): Draft {
   return {
@@ -28,14 +29,27 @@ export function isSame(draft: Draft, channel: Channel): boolean {
   return off < 1e-6;
 }
 
-export type Moved = "whole" | "entry" | "target";
+export const MOVED = ["whole", "entry", "target"] as const;
+export type Moved = (typeof MOVED)[number];
 
+/** Unchanged if its ends would come together. */
 export function shiftChannel(draft: Draft, what: Moved, by: Vec3): Draft {
-  return {
+  const shifted = {
     ...draft,
     entry: what === "target" ? draft.entry : plus(draft.entry, by),
     target: what === "entry" ? draft.target : plus(draft.target, by),
   };
+  return lengthMm(shifted) < MIN_LENGTH_MM ? draft : shifted;
+}
+
+export function middleOf(draft: Draft): Vec3 {
+  return times(plus(draft.entry, draft.target), 0.5);
+}
+
+/** With its entry, its end, or the middle of all of it at this point. */
+export function placeChannel(draft: Draft, what: Moved, point: Vec3): Draft {
+  const now = what === "whole" ? middleOf(draft) : draft[what];
+  return shiftChannel(draft, what, minus(point, now));
 }
 
 /** Rotated about its entry in the plane of a slice; positive is clockwise for the viewer. */
@@ -46,7 +60,10 @@ export function rotateChannel(draft: Draft, normal: Vec3, angleDeg: number): Dra
 /** Lengthened at its end. */
 export function extendChannel(draft: Draft, byMm: number): Draft {
   const length = lengthMm(draft);
-  return { ...draft, target: plus(draft.entry, times(axisOf(draft), Math.max(1, length + byMm))) };
+  return {
+    ...draft,
+    target: plus(draft.entry, times(axisOf(draft), Math.max(MIN_LENGTH_MM, length + byMm))),
+  };
 }
 
 export function lengthMm(draft: Draft): number {

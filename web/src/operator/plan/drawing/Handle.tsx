@@ -2,6 +2,7 @@ import { useDrag } from "@use-gesture/react";
 import { useRef, type KeyboardEvent, type ReactNode } from "react";
 import type { Projection } from "../slices/projection";
 import { plus, minus, type Vec3 } from "../slices/vectors";
+import { knobAt } from "./knobs";
 
 /** Size for a gloved finger. */
 const TOUCH_RADIUS_PX = 28;
@@ -22,15 +23,19 @@ interface HandleProps {
   towards: readonly [number, number];
   label: string;
   name: string;
+  /** Drawn in the knob, around (0, 0), to tell it from others; an SVG path. */
+  sign?: string | undefined;
   onMove: (point: Vec3) => void;
 }
 
 /** A point that is dragged by a knob beside it; it moves relative to its start. */
-export function Handle({ projection, point, towards, label, name, onMove }: HandleProps): ReactNode {
+export function Handle({ projection, point, towards, label, name, sign, onMove }: HandleProps): ReactNode {
   const knob = useRef<SVGGElement>(null);
   const [x, y] = projection.at(point);
-  const length = Math.hypot(...towards) || 1;
-  const [kx, ky] = [x + (towards[0] / length) * KNOB_AWAY_PX, y + (towards[1] / length) * KNOB_AWAY_PX];
+  const [kx, ky] = knobAt([x, y], towards, projection.stage, {
+    awayPx: KNOB_AWAY_PX,
+    radiusPx: TOUCH_RADIUS_PX,
+  });
   // The offset from the slice is preserved: only the in-plane position moves.
   const movedBy = (from: Vec3, dx: number, dy: number): Vec3 => {
     const [fx, fy] = projection.at(from);
@@ -70,6 +75,7 @@ export function Handle({ projection, point, towards, label, name, onMove }: Hand
       <line x1={x} y1={y} x2={kx} y2={ky} />
       <circle className="draw-handle-touch" cx={kx} cy={ky} r={TOUCH_RADIUS_PX} />
       <circle className="draw-handle-knob" cx={kx} cy={ky} r={14} />
+      {sign !== undefined && <path d={sign} transform={`translate(${kx} ${ky})`} />}
       <circle className="draw-handle-point" cx={x} cy={y} r={4} />
     </g>
   );

@@ -1,9 +1,11 @@
 import type { ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
+import { middleOf, MOVED, shiftChannel, type Moved } from "../channel/draft";
 import { areSame, draftLines } from "../lines/draftLines";
-import { isFlat, type PlaneName } from "../slices/address";
+import type { PlaneName } from "../slices/address";
 import type { Projection } from "../slices/projection";
 import { useSlices } from "../slices/SlicesContext";
+import { minus } from "../slices/vectors";
 import { usePlanning } from "../state/PlanContext";
 import { SIDES, usedPedicle, type Screw, type Side, type Vertebra } from "../state/shape";
 import type { Clearances } from "../state/useClearances";
@@ -14,14 +16,16 @@ import { ChannelDrawing } from "./ChannelDrawing";
 import { partsOf, type Part } from "./clearance";
 import { Cross } from "./Cross";
 import { Handle } from "./Handle";
+import { knobsOf } from "./knobs";
 import { LandmarksDrawing } from "./LandmarksDrawing";
 import { LinesDrawing } from "./LinesDrawing";
+import { MeasureDrawing } from "./MeasureDrawing";
 import { PedicleDrawing } from "./PedicleDrawing";
 
 /** All parts of the plan on this slice, the cross, and unsaved drafts. */
 export function PlanDrawing({ plane, projection }: { plane: PlaneName; projection: Projection }): ReactNode {
   const { vertebrae, vertebra } = usePlanning();
-  const { look } = useSlices();
+  const { look, plane: largePlane } = useSlices();
   const { part, apartMm } = useWork();
   const reference = vertebra?.references[0] ?? null;
   const lines = draftLines(look.cursor, apartMm);
@@ -37,6 +41,7 @@ export function PlanDrawing({ plane, projection }: { plane: PlaneName; projectio
       )}
       <Cross projection={projection} cursor={look.cursor} />
       <DraftDrawing plane={plane} projection={projection} />
+      <MeasureDrawing projection={projection} isLarge={plane === largePlane} />
     </>
   );
 }
@@ -103,6 +108,13 @@ function partsOfScrew(
   };
 }
 
+/** In the knobs: the entry's ring, arrows' cross for all of it, and the end's cross. */
+const SIGN: Record<Moved, string> = {
+  entry: "M -5 0 a 5 5 0 1 0 10 0 a 5 5 0 1 0 -10 0",
+  whole: "M -8 0 H 8 M 0 -8 V 8",
+  target: "M -6 -6 L 6 6 M -6 6 L 6 -6",
+};
+
 function DraftDrawing({ plane, projection }: { plane: PlaneName; projection: Projection }): ReactNode {
   const texts = useTexts().plan.byHand;
   const large = useSlices().plane;
@@ -110,12 +122,8 @@ function DraftDrawing({ plane, projection }: { plane: PlaneName; projection: Pro
   if (draft === null || part !== "channel") return null;
   const { of, channel } = draft;
   const { entry, target } = channel;
-  const [ex, ey] = projection.at(entry);
-  const [tx, ty] = projection.at(target);
-  const isEditable = plane === large && (isFlat(plane) || plane === "along");
-  const put = (changed: Partial<typeof channel>): void => {
-    setDraft({ of, channel: { ...channel, ...changed } });
-  };
+  const points = { entry, whole: middleOf(channel), target };
+  const knobs = knobsOf(projection.at(entry), projection.at(target));
   return (
     <>
       <ChannelDrawing
@@ -125,30 +133,21 @@ function DraftDrawing({ plane, projection }: { plane: PlaneName; projection: Pro
         radiusMm={channel.diameterMm / 2}
         look="draft"
       />
-      {isEditable && (
-        <>
+      {plane === large &&
+        MOVED.map((what) => (
           <Handle
+            key={what}
             projection={projection}
-            name="entry"
-            label={texts.moved.entry}
-            point={entry}
-            towards={[ex - tx, ey - ty]}
+            name={what}
+            label={texts.moved[what]}
+            sign={SIGN[what]}
+            point={points[what]}
+            towards={knobs[what]}
             onMove={(point) => {
-              put({ entry: point });
+              setDraft({ of, channel: shiftChannel(channel, what, minus(point, points[what])) });
             }}
           />
-          <Handle
-            projection={projection}
-            name="target"
-            label={texts.moved.target}
-            point={target}
-            towards={[tx - ex, ty - ey]}
-            onMove={(point) => {
-              put({ target: point });
-            }}
-          />
-        </>
-      )}
+        ))}
     </>
   );
 }

@@ -51,6 +51,12 @@ describe("a cylinder of 3 mm radius cut by a slice", () => {
     expect(cylinderOnSlice(AXIAL, [1, 2, -10], [1, 2, 10], 3)).toHaveLength(cut.length);
   });
 
+  test("square to its axis at an end shows the end, whose place is rounded", () => {
+    expect(cylinderOnSlice(AXIAL, [1, 2, -0.001], [1, 2, -10], 3)).toHaveLength(48);
+    expect(cylinderOnSlice(AXIAL, [1, 2, 10], [1, 2, 0.001], 3)).toHaveLength(48);
+    expect(cylinderOnSlice(AXIAL, [1, 2, -0.1], [1, 2, -10], 3)).toEqual([]);
+  });
+
   test("aslant shows an ellipse: at 30 degrees to the slice, twice as long as wide", () => {
     const along: Vec3 = [0, Math.cos(Math.PI / 6) * 50, Math.sin(Math.PI / 6) * 50];
     const cut = cylinderOnSlice(AXIAL, [0, -along[1], -along[2]], along, 3);

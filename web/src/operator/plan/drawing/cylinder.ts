@@ -6,6 +6,8 @@ const STATIONS = 60;
 const CORNERS = 48;
 /** Sine below which the slice counts as perpendicular to the axis. */
 const SQUARE = 1e-3;
+/** A slice this little beyond an end still shows it: the places of slices are rounded to 0.001 mm. */
+const AT_END_MM = 0.01;
 
 /** Corners of the outline in order; empty if the slice misses the cylinder. */
 export function cylinderOnSlice(place: PixelGrid, entry: Vec3, target: Vec3, radiusMm: number): Vec3[] {
@@ -47,7 +49,7 @@ function ratiosWithin(first: number, last: number, limit: number): readonly [num
 /** The circle on a slice perpendicular to the axis, if it is between the ends. */
 function sectionOf(place: PixelGrid, entry: Vec3, axis: Vec3, lengthMm: number, radiusMm: number): Vec3[] {
   const along = -beyondMm(place, entry) * Math.sign(dot(axis, normalOf(place)));
-  if (along < 0 || along > lengthMm) return [];
+  if (along < -AT_END_MM || along > lengthMm + AT_END_MM) return [];
   const centre = plus(entry, times(axis, along));
   return Array.from({ length: CORNERS }, (_, i) => {
     const angle = (2 * Math.PI * i) / CORNERS;

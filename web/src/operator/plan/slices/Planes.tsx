@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import type { PlaneName } from "./address";
+import { MeasureNote } from "./MeasureNote";
 import type { Projection } from "./projection";
 import { useSlices } from "./SlicesContext";
 import { SliceTools } from "./SliceTools";
@@ -22,6 +23,7 @@ export function Planes({ drawing }: PlanesProps): ReactNode {
     <section className="planes" aria-label={texts.title}>
       <div className="planes-large">
         <SliceView key={plane} plane={plane} isLarge drawing={(projection) => drawing(plane, projection)} />
+        <MeasureNote />
       </div>
       <div className="planes-small">
         {there

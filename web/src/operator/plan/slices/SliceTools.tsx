@@ -4,7 +4,7 @@ import { useTexts } from "../../../texts/TextsContext";
 import { Greys } from "./Greys";
 import { useSlices, type Hand } from "./SlicesContext";
 
-const HANDS: readonly Hand[] = ["scroll", "greys", "move"];
+const HANDS: readonly Hand[] = ["scroll", "greys", "move", "measure"];
 
 /** Function of one finger, slice by slice, grey window, and full view. */
 export function SliceTools(): ReactNode {

@@ -13,6 +13,7 @@ import { RejectionNote } from "../../../rest/RejectionNote";
 import { useTexts } from "../../../texts/TextsContext";
 import { addressOf, neighboursOf, type PlaneName } from "./address";
 import { OtherCt } from "./loadSlice";
+import { withTap } from "./measure";
 import { SliceLabels } from "./SliceLabels";
 import { frameOf, planeFromLps, type Vec2 } from "./place";
 import { projectionOf, type Projection } from "./projection";
@@ -71,7 +72,10 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
     hand: isLarge ? slices.hand : "scroll",
     greys: look.greys,
     onTap: (at: Vec2) => {
-      if (projection !== null) goTo(projection.lpsAt(at));
+      if (projection === null) return;
+      const point = projection.lpsAt(at);
+      if (isLarge && slices.hand === "measure") slices.setMeasurement(withTap(slices.measurement, point));
+      else goTo(point);
     },
     onScroll: (steps) => {
       scroll(plane, steps);

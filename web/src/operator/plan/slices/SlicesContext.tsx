@@ -11,11 +11,12 @@ import {
   type PlaneName,
   type Way,
 } from "./address";
+import type { Measurement } from "./measure";
 import type { Place } from "./place";
 import type { Vec3 } from "./vectors";
 import type { Zoom } from "./zoom";
 
-export type Hand = "scroll" | "greys" | "move";
+export type Hand = "scroll" | "greys" | "move" | "measure";
 
 interface SlicesValue {
   ct: Ct;
@@ -26,6 +27,8 @@ interface SlicesValue {
   plane: PlaneName;
   hand: Hand;
   zooms: Partial<Record<PlaneName, Zoom | null>>;
+  measurement: Measurement;
+  setMeasurement: (measurement: Measurement) => void;
   setPlane: (plane: PlaneName) => void;
   setHand: (hand: Hand) => void;
   setZoom: (plane: PlaneName, zoom: Zoom | null) => void;
@@ -60,6 +63,8 @@ export function SlicesProvider({ ct, lookAnew, children }: SlicesProviderProps):
   const [plane, setPlane] = useState<PlaneName>("axial");
   const [hand, setHand] = useState<Hand>("scroll");
   const [zooms, setZooms] = useState<Partial<Record<PlaneName, Zoom | null>>>({});
+
+  const [measurement, setMeasurement] = useState<Measurement>([]);
 
   const setZoom = useCallback((of: PlaneName, zoom: Zoom | null) => {
     setZooms((before) => ({ ...before, [of]: zoom }));
@@ -100,6 +105,8 @@ export function SlicesProvider({ ct, lookAnew, children }: SlicesProviderProps):
       plane: shownPlane,
       hand,
       zooms,
+      measurement,
+      setMeasurement,
       setPlane,
       setHand,
       setZoom,
@@ -117,6 +124,7 @@ export function SlicesProvider({ ct, lookAnew, children }: SlicesProviderProps):
       shownPlane,
       hand,
       zooms,
+      measurement,
       setZoom,
       goTo,
       scroll,

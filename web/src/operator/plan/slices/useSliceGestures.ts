@@ -39,7 +39,7 @@ export function useSliceGestures(of: Gestures): void {
         if (tap) of.onTap(on(...xy));
         else if (hand === "greys") of.onGreys(changed(greys, delta));
         else if (hand === "move" && zoom !== null && frame !== null) of.onZoom(moved(zoom, frame, delta));
-        else if (hand === "scroll") {
+        else if (hand === "scroll" || hand === "measure") {
           const before = first ? 0 : ((memo as number | undefined) ?? 0);
           const now = Math.trunc(movement[1] / PX_A_SLICE);
           if (now !== before) of.onScroll(now - before);
