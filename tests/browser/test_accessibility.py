@@ -126,6 +126,14 @@ def test_every_page_of_the_operator(opened: Callable[..., Page], watched: Watche
     assert page.evaluate("document.documentElement.scrollWidth") <= LYING[0]
 
 
+def test_with_a_camera_the_pages_have_help_and_no_tour(opened: Callable[..., Page]) -> None:
+    page = opened("/operator/case")
+    expect(page.get_by_test_id("new-case")).to_be_visible(timeout=PATIENCE_MS)
+    expect(page.get_by_test_id("help")).to_have_attribute("href", re.compile("^/docs/first-procedure/"))
+    expect(page.get_by_test_id("tour-offer")).to_have_count(0)
+    expect(page.get_by_test_id("tour-start")).to_have_count(0)
+
+
 @pytest.mark.parametrize("path", ["/operator", "/supervisor", "/enter"])
 def test_every_other_view(opened: Callable[..., Page], path: str) -> None:
     page = opened(path, UPRIGHT if path == "/operator" else LYING)
