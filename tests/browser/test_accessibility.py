@@ -126,6 +126,41 @@ def test_every_page_of_the_operator(opened: Callable[..., Page], watched: Watche
     assert page.evaluate("document.documentElement.scrollWidth") <= LYING[0]
 
 
+def test_with_a_camera_the_pages_have_help_and_no_tour(opened: Callable[..., Page]) -> None:
+    page = opened("/operator/case")
+    expect(page.get_by_test_id("new-case")).to_be_visible(timeout=PATIENCE_MS)
+    expect(page.get_by_test_id("help")).to_have_attribute("href", re.compile("^/docs/first-procedure/"))
+    expect(page.get_by_test_id("tour-offer")).to_have_count(0)
+    expect(page.get_by_test_id("tour-start")).to_have_count(0)
+
+
+def test_a_page_that_lacks_something_leads_to_where_it_comes_from(
+    browser: Browser, shared_theatre: Theatre
+) -> None:
+    context = browser.new_context(locale="en-GB", viewport={"width": PHONE[0], "height": PHONE[1]})
+    rejection = {
+        "code": "CAMERA_NOT_CALIBRATED",
+        "message": "the camera is not calibrated",
+        "remedy": "Calibrate the camera first.",
+        "context": {},
+        "language": "en",
+    }
+    context.route("**/api/tools", lambda route: route.fulfill(status=409, json=rejection))
+    context.add_init_script(path=AXE)
+    page = context.new_page()
+    step = page.locator("#step")
+    for name in ("plan", "register", "recordings", "report", "camera"):
+        page.goto(f"http://127.0.0.1:{shared_theatre.port}/operator/{name}")
+        expect(step.get_by_test_id("go-case")).to_be_visible(timeout=PATIENCE_MS)
+    assert faults(page) == []
+    page.get_by_test_id("step-tool").click()
+    expect(step.get_by_role("alert")).to_contain_text("Calibrate the camera first.", timeout=PATIENCE_MS)
+    assert faults(page) == []
+    step.get_by_test_id("go-camera").click()
+    expect(page).to_have_url(re.compile("/operator/camera$"))
+    context.close()
+
+
 @pytest.mark.parametrize("path", ["/operator", "/supervisor", "/enter"])
 def test_every_other_view(opened: Callable[..., Page], path: str) -> None:
     page = opened(path, UPRIGHT if path == "/operator" else LYING)

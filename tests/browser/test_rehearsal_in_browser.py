@@ -15,9 +15,10 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
-from playwright.sync_api import Page, ViewportSize, expect
+from playwright.sync_api import Page, Request, ViewportSize, expect
 
 from tests.browser.canvas import PIXELS
+from tests.browser.test_accessibility import AXE, PHONE, THEATRE, faults
 from tests.browser.test_dashboard import DIGEST, is_live
 from tests.browser.theatre import CHECKOUT, WatchedPage, save_screenshot, show_scene
 
@@ -28,6 +29,18 @@ ONE_CYCLE_MS = 60_000
 # Scale of screenshots: legible, and small in the repository.
 PICTURE: ViewportSize = {"width": 1440, "height": 810}
 
+STATIONS = re.findall(
+    r'\{ name: "(\w+)",', (CHECKOUT / "web" / "src" / "tour" / "stations.ts").read_text(encoding="utf-8")
+)
+# The card of the tour is in the window, and apart from the alarms.
+CARD_IS_APART = """() => {
+    const [card, alarms] = [".tour", ".alarms"]
+        .map(part => document.querySelector(part)?.getBoundingClientRect());
+    if (!card || !alarms) return false;
+    const isWithin = card.left >= 0 && card.right <= innerWidth;
+    const isInside = isWithin && card.top >= 0 && card.bottom <= innerHeight;
+    return isInside && (alarms.bottom <= card.top || card.bottom <= alarms.top);
+}"""
 THREE_DEPTHS = """() => {
     const text = document.querySelector('[data-testid="reading-depth"]').textContent;
     window.depths ??= new Set();
@@ -181,6 +194,50 @@ def picture_while_drilling(page: Page, name: str) -> None:
         if page.evaluate(DRILLING):
             return
     pytest.fail("in 20 screenshots the page was never live before and after")
+
+
+def test_a_tour_leads_through_the_pages_by_the_keyboard_covers_no_alarm_and_is_left_by_escape(
+    rehearsal: Rehearsal, watch: Callable[..., WatchedPage]
+) -> None:
+    page = watch(rehearsal, 1180, 820).open("operator/case")
+    page.emulate_media(reduced_motion="reduce")
+    changes: list[str] = []
+
+    def note(request: Request) -> None:
+        # Each page with alarms states by itself whether its sound is armed.
+        if request.method != "GET" and not request.url.endswith("/api/alarms/screens"):
+            changes.append(f"{request.method} {request.url}")
+
+    page.on("request", note)
+    page.get_by_test_id("tour-offer").get_by_role("button").first.click()
+    tour = page.get_by_test_id("tour")
+    for number, station in enumerate(STATIONS):
+        expect(tour).to_have_attribute("data-station", station)
+        expect(page.locator("[data-toured]")).to_have_count(1)
+        for width, height in (THEATRE, PHONE, (1180, 820)):
+            page.set_viewport_size({"width": width, "height": height})
+            page.wait_for_function(CARD_IS_APART)
+        expect(page.get_by_test_id("tour-next")).to_be_focused()
+        if number + 1 < len(STATIONS):
+            page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.closest('.tour')") is None
+    page.keyboard.press("Escape")
+    expect(tour).to_have_count(0)
+    # It was a look around, and it is not offered again, but it can be started.
+    assert changes == []
+    page.goto(f"http://127.0.0.1:{rehearsal.port}/operator/case")
+    page.get_by_test_id("tour-start").click()
+    expect(tour).to_have_attribute("data-station", STATIONS[0])
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    for theme in ("dark", "light"):
+        page.emulate_media(color_scheme=theme)
+        expect(page.locator("html")).to_have_attribute("data-theme", theme)
+        assert faults(page) == []
+    page.get_by_test_id("tour-leave").click()
+    page.get_by_test_id("step-case").click()
+    expect(page.get_by_test_id("new-case")).to_be_visible()
+    expect(page.get_by_test_id("tour-offer")).to_have_count(0)
 
 
 def test_killed_tracking_takes_the_numbers_and_comes_back_by_itself(

@@ -3,6 +3,7 @@ import { useLocation } from "wouter";
 import { SignInPage } from "../signin/SignInPage";
 import { LiveProvider } from "../live/LiveContext";
 import { RoomProvider } from "../room/RoomContext";
+import { TourProvider } from "../tour/TourContext";
 import { TheatreView } from "../theatre/TheatreView";
 import { ProcedureProvider } from "./procedure";
 import { useSession } from "./session";
@@ -33,9 +34,11 @@ export function App(): ReactNode {
     <LiveProvider>
       <RoomProvider view={view}>
         <ProcedureProvider view={view}>
-          <Suspense fallback={null}>
-            <View />
-          </Suspense>
+          <TourProvider>
+            <Suspense fallback={null}>
+              <View />
+            </Suspense>
+          </TourProvider>
         </ProcedureProvider>
       </RoomProvider>
     </LiveProvider>

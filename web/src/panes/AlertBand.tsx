@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { sentence } from "../operator/parts/format";
+import { RemedyLink } from "../rest/RemedyLink";
 import { useLive } from "../live/LiveContext";
 import { useTexts } from "../texts/TextsContext";
 import { languageOf, textOf } from "../texts/text";
@@ -22,6 +23,7 @@ export function AlertBand(): ReactNode {
             <span lang={languageOf(problem, texts)}>{textOf(problem.remedy, texts)}</span>{" "}
             <code>{problem.code}</code>
           </span>
+          <RemedyLink code={problem.code} />
         </p>
       ))}
       {note !== null && (

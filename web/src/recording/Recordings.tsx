@@ -3,6 +3,8 @@ import { useState, type ReactNode } from "react";
 import { useProcedure } from "../app/procedure";
 import { ConfirmButton } from "../operator/parts/ConfirmButton";
 import { formatBytes, formatTime } from "../operator/parts/format";
+import { EmptyState } from "../panes/EmptyState";
+import { PageLink } from "../rest/PageLink";
 import { QueryStatus } from "../rest/QueryStatus";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useAction } from "../rest/useAction";
@@ -40,7 +42,12 @@ export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
   const { data, isLoading } = query;
   if (procedure === null || (data === null && isLoading))
     return <QueryStatus query={{ ...query, rejection: null }} />;
-  if (caseId === null) return <p className="soft">{own.noCase}</p>;
+  if (caseId === null)
+    return (
+      <EmptyState drawing="case" sentence={own.noCase}>
+        {mayChange && <PageLink page="case" />}
+      </EmptyState>
+    );
   if (data === null) return <QueryStatus query={query} />;
   const ended = data.filter((one) => !one.is_running);
   const reviewed = ended.find((one) => one.name === chosen) ?? null;
@@ -48,7 +55,7 @@ export function Recordings({ mayChange }: { mayChange: boolean }): ReactNode {
   const titleOf = (one: Stored): string => interpolate(own.title, { number: data.indexOf(one) + 1 });
   return (
     <div className="recordings" data-testid="recordings">
-      {data.length === 0 && <p className="soft">{own.none}</p>}
+      {data.length === 0 && <EmptyState drawing="recording" sentence={own.none} />}
       <ul className="recordings-list">
         {data.map((one) => (
           <RecordingRow

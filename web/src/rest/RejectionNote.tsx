@@ -1,9 +1,11 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
+import { Drawing } from "../panes/Drawing";
 import { useTexts } from "../texts/TextsContext";
 import type { Rejection } from "./client";
+import { RemedyLink } from "./RemedyLink";
 
-/** Shows a rejection with its remedy; renders nothing without one. */
+/** Shows a rejection with its remedy, and a button to the page of the remedy; renders nothing without one. */
 export function RejectionNote({ rejection }: { rejection: Rejection | null }): ReactNode {
   const texts = useTexts();
   if (rejection === null) return null;
@@ -13,9 +15,11 @@ export function RejectionNote({ rejection }: { rejection: Rejection | null }): R
     <Alert
       className="rejection"
       role="alert"
+      icon={<Drawing name={silent ? "lost" : "rejected"} />}
       title={silent ? texts.rest.noAnswer : <span lang={language}>{sentence(message)}</span>}
     >
       {silent ? texts.rest.noAnswerRemedy : <span lang={language}>{remedy}</span>} <code>{code}</code>
+      <RemedyLink code={code} />
     </Alert>
   );
 }

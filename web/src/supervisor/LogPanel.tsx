@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { formatSecond } from "../operator/parts/format";
 import { getAlarmsLog } from "../api";
+import { EmptyState } from "../panes/EmptyState";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useQuery } from "../rest/useQuery";
 import { textIn } from "../texts/text";
@@ -23,7 +24,7 @@ export function LogPanel(): ReactNode {
       <button type="button" onClick={query.refetch}>
         {own.again}
       </button>
-      {data.lines.length === 0 && <p className="soft">{own.none}</p>}
+      {data.lines.length === 0 && <EmptyState drawing="log" sentence={own.none} />}
       <ul className="log" data-testid="log">
         {[...data.lines].reverse().map((line, index) => (
           <li key={`${text(line, "at")} ${index}`}>

@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { useProcedure, type Step } from "../app/procedure";
 import { sentence } from "../operator/parts/format";
 import { stateText } from "../operator/stepTexts";
+import { EmptyState } from "../panes/EmptyState";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useTexts } from "../texts/TextsContext";
 
@@ -20,7 +21,7 @@ export function StepsShown(): ReactNode {
   const { data } = query;
   const own = texts.supervisor;
   if (data === null) return <QueryStatus query={query} />;
-  if (data.case_id === null) return <p className="soft">{own.steps.noCase}</p>;
+  if (data.case_id === null) return <EmptyState drawing="case" sentence={own.steps.noCase} />;
   return (
     <ol className="steps-shown" data-testid="steps">
       {data.steps.map((step) => (

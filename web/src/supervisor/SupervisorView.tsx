@@ -11,6 +11,7 @@ import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
 import { AuditLog } from "../operator/people/AuditLog";
 import { AlertBand } from "../panes/AlertBand";
+import { EmptyState } from "../panes/EmptyState";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
 import { VideoPane } from "../panes/VideoPane";
@@ -102,14 +103,14 @@ function Signables(): ReactNode {
     <>
       <Fold id="plan" title={own.plan.title} aside={<SignState signable={plan} />}>
         {plan === null ? (
-          <p className="soft">{isConnected ? own.plan.none : unheard}</p>
+          <EmptyState drawing="plan" sentence={isConnected ? own.plan.none : unheard} />
         ) : (
           <PlanPanel signable={plan} />
         )}
       </Fold>
       <Fold id="registration" title={own.registration.title} aside={<SignState signable={registration} />}>
         {registration === null ? (
-          <p className="soft">{isConnected ? own.registration.none : unheard}</p>
+          <EmptyState drawing="registration" sentence={isConnected ? own.registration.none : unheard} />
         ) : (
           <RegistrationPanel signable={registration} />
         )}

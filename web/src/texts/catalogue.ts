@@ -28,6 +28,7 @@ import type { ShellTexts } from "./shell/en";
 import type { SupervisorTexts } from "./supervisor/en";
 import type { TheatreTexts } from "./theatre/en";
 import type { ToolTexts } from "./tool/en";
+import type { TourTexts } from "./tour/en";
 
 /** A short state in capitals, and a sentence with its meaning or remedy. */
 export interface StateText {
@@ -124,6 +125,7 @@ export interface Texts {
   connection: ConnectionTexts;
   signIn: SignInTexts;
   help: HelpTexts;
+  tour: TourTexts;
   rest: RestTexts;
   restart: RestartTexts;
   operator: OperatorTexts;

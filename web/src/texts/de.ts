@@ -27,6 +27,7 @@ import { shellDe } from "./shell/de";
 import { supervisorDe } from "./supervisor/de";
 import { theatreDe } from "./theatre/de";
 import { toolDe } from "./tool/de";
+import { tourDe } from "./tour/de";
 import type { Texts } from "./en";
 
 export const de: Texts = {
@@ -163,6 +164,7 @@ export const de: Texts = {
   connection: connectionDe,
   signIn: signInDe,
   help: helpDe,
+  tour: tourDe,
   rest: restDe,
   restart: restartDe,
   operator: operatorDe,

@@ -27,6 +27,7 @@ import { shellEn } from "./shell/en";
 import { supervisorEn } from "./supervisor/en";
 import { theatreEn } from "./theatre/en";
 import { toolEn } from "./tool/en";
+import { tourEn } from "./tour/en";
 import type { Texts } from "./catalogue";
 
 export type { StateText, Texts } from "./catalogue";
@@ -165,6 +166,7 @@ export const en: Texts = {
   connection: connectionEn,
   signIn: signInEn,
   help: helpEn,
+  tour: tourEn,
   rest: restEn,
   restart: restartEn,
   operator: operatorEn,

@@ -5,7 +5,8 @@ export const theme = createTheme({
   fontFamily: 'Inter, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", "DejaVu Sans", Arial, sans-serif',
   fontFamilyMonospace: 'ui-monospace, "Cascadia Mono", "DejaVu Sans Mono", monospace',
   primaryColor: "cyan",
-  primaryShade: { light: 9, dark: 8 },
+  // White text on the next lighter shade has a contrast of 4.3, which is too little.
+  primaryShade: 9,
   // Black or white text on filled buttons, whichever has the larger contrast.
   autoContrast: true,
   luminanceThreshold: 0.18,

@@ -1,6 +1,8 @@
 import { useState, type ReactNode } from "react";
+import { EmptyState } from "../../panes/EmptyState";
 import { VideoPane } from "../../panes/VideoPane";
 import { getCamera } from "../../api";
+import { PageLink } from "../../rest/PageLink";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -44,7 +46,11 @@ export function CameraPage(): ReactNode {
       </div>
       <div className="cards">
         {gates !== null && data === null && <QueryStatus query={query} />}
-        {procedure.data !== null && caseId === null && <p className="card-lead">{texts.noCase}</p>}
+        {procedure.data !== null && caseId === null && (
+          <EmptyState drawing="case" sentence={texts.noCase}>
+            <PageLink page="case" />
+          </EmptyState>
+        )}
         {data !== null && gates !== null && caseId !== null && (
           <>
             {data.collecting && (

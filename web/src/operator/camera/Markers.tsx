@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { EmptyState } from "../../panes/EmptyState";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { getMarkers, type TrackerConfig } from "../../api";
@@ -30,7 +31,7 @@ export function Markers({ gate, canAdd, onChange }: MarkersProps): ReactNode {
   return (
     <Card title={texts.markersTitle} testId="markers">
       {data === null && <QueryStatus query={query} />}
-      {data?.markers.length === 0 && <p className="card-lead">{texts.noMarkers}</p>}
+      {data?.markers.length === 0 && <EmptyState drawing="marker" sentence={texts.noMarkers} />}
       <ul className="rows">
         {data?.markers.map((marker) => (
           <MarkerRow key={marker.name} marker={marker} gate={gate} onRemoved={changed} />

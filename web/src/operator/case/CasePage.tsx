@@ -3,6 +3,7 @@ import { getCases } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useProcedure } from "../../app/procedure";
+import { TourOffer } from "../../tour/TourOffer";
 import { ArchiveIn } from "./ArchiveIn";
 import { CaseList } from "./CaseList";
 import { Documents } from "./Documents";
@@ -30,6 +31,7 @@ export function CasePage(): ReactNode {
   const newCase = <NewCase first={data.cases.length === 0} onMade={changed} />;
   return (
     <div className="cards">
+      <TourOffer />
       {opened === null && newCase}
       {opened !== null && <OpenedCase key={opened.id} opened={opened} onChange={changed} />}
       <Rehearsal />

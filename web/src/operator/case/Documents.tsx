@@ -1,5 +1,6 @@
 import { Badge, Switch, Table } from "@mantine/core";
 import { useState, type ReactNode } from "react";
+import { EmptyState } from "../../panes/EmptyState";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { getCasesByCaseIdDocuments, type HeadingMessage } from "../../api";
@@ -40,7 +41,7 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
       }
     >
       {data === null && <QueryStatus query={query} />}
-      {data !== null && shown.length === 0 && <p className="soft">{texts.noDocuments}</p>}
+      {data !== null && shown.length === 0 && <EmptyState drawing="log" sentence={texts.noDocuments} />}
       {shown.length > 0 && (
         <Table.ScrollContainer minWidth={520}>
           <Table verticalSpacing="sm">

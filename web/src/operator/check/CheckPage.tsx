@@ -1,6 +1,7 @@
 import { useState, type ReactNode } from "react";
-import { Link } from "wouter";
 import { getRegistration } from "../../api";
+import { EmptyState } from "../../panes/EmptyState";
+import { PageLink } from "../../rest/PageLink";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -20,12 +21,9 @@ export function CheckPage(): ReactNode {
   if (register === undefined) return <QueryStatus query={procedure} />;
   if (register.state !== "done" || register.document_id === null)
     return (
-      <p className="warning" data-testid="check-shut">
-        ▲ {texts.needsRegistration}{" "}
-        <Link className="big-link" href="/operator/register">
-          {texts.toRegister}
-        </Link>
-      </p>
+      <EmptyState drawing="registration" sentence={texts.needsRegistration} testId="check-shut">
+        <PageLink page="register" />
+      </EmptyState>
     );
   return <Checking key={register.document_id} registrationId={register.document_id} />;
 }

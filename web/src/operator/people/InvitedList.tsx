@@ -1,5 +1,6 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
+import { EmptyState } from "../../panes/EmptyState";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { deletePeopleInvitationsByInvitationId, type InvitationMessage } from "../../api";
@@ -25,7 +26,7 @@ export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
     <section aria-labelledby="invitations">
       <h3 id="invitations">{texts.invitations}</h3>
       <RejectionNote rejection={rejection} />
-      {invitations.length === 0 && <p>{texts.noInvitations}</p>}
+      {invitations.length === 0 && <EmptyState drawing="people" sentence={texts.noInvitations} />}
       <ul className="people-list">
         {invitations.map((one) => (
           <li key={one.id} data-state={one.state}>

@@ -1,6 +1,8 @@
 import type { ReactNode } from "react";
-import { Link } from "wouter";
 import { getCt } from "../../api";
+import { Drawing } from "../../panes/Drawing";
+import { EmptyState } from "../../panes/EmptyState";
+import { PageLink } from "../../rest/PageLink";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -20,12 +22,9 @@ export function PlanPage(): ReactNode {
   if (caseId === undefined) return <QueryStatus query={query} />;
   if (caseId === null) {
     return (
-      <section className="plan-empty">
-        <p>{texts.noCase}</p>
-        <Link className="plan-link" href="/operator/case">
-          {texts.toCase}
-        </Link>
-      </section>
+      <EmptyState drawing="case" sentence={texts.noCase}>
+        <PageLink page="case" />
+      </EmptyState>
     );
   }
   return <PlanOfCase key={caseId} caseId={caseId} />;
@@ -40,7 +39,9 @@ function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
   if (ct.data === "none") {
     return (
       <section className="plan-empty" data-testid="no-ct">
-        <h3>{texts.ct.noneTitle}</h3>
+        <h3 className="with-drawing">
+          <Drawing name="ct" /> {texts.ct.noneTitle}
+        </h3>
         <CtIntake isSecond={false} onTaken={ct.refetch} />
       </section>
     );

@@ -1,5 +1,7 @@
 import type { ReactNode } from "react";
 import { Link, useLocation } from "wouter";
+import { EmptyState } from "../../panes/EmptyState";
+import { PageLink } from "../../rest/PageLink";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
@@ -18,15 +20,16 @@ export function RegistrationPage(): ReactNode {
   const [path] = useLocation();
   const procedure = useProcedure();
   const step = procedure.data?.steps.find((one) => one.step === "register");
+  const missing = procedure.data?.case_id == null ? "case" : procedure.data.next_step;
   const named = path.split("/")[3] ?? "";
   const way = Object.hasOwn(WAYS, named) ? (named as Way) : null;
   // Methods depend on the case and wait for the first answer. A later failure must not discard unsaved marks.
   if (step === undefined && procedure.rejection === null) return <QueryStatus query={procedure} />;
   if (step !== undefined && !step.allowed)
     return (
-      <p className="warning" data-testid="register-shut">
-        ▲ {texts.shut}
-      </p>
+      <EmptyState drawing="registration" sentence={texts.shut} testId="register-shut">
+        <PageLink page={missing} />
+      </EmptyState>
     );
   if (way === null) return <MethodChoice />;
   const Way = WAYS[way];

@@ -1,5 +1,7 @@
 import { SegmentedControl } from "@mantine/core";
 import type { ReactNode } from "react";
+import { EmptyState } from "../../panes/EmptyState";
+import { PageLink } from "../../rest/PageLink";
 import { useTexts } from "../../texts/TextsContext";
 import { useTools } from "./useTools";
 
@@ -13,7 +15,12 @@ export function ToolChoice({ tool, onTool }: ToolChoiceProps): ReactNode {
   const { registration: texts, rest } = useTexts();
   const tools = useTools();
   if (tools === null) return <p className="loading">{rest.loading}</p>;
-  if (tools.length === 0) return <p className="warning">▲ {texts.tool.none}</p>;
+  if (tools.length === 0)
+    return (
+      <EmptyState drawing="tool" sentence={texts.tool.none}>
+        <PageLink page="tool" />
+      </EmptyState>
+    );
   if (tools.length === 1)
     return (
       <p>

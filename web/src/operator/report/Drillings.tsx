@@ -12,6 +12,7 @@ import { useJob } from "../../rest/useJob";
 import { useQuery } from "../../rest/useQuery";
 import { interpolate } from "../../texts/interpolate";
 import { pluralize } from "../../texts/pluralize";
+import { EmptyState } from "../../panes/EmptyState";
 import { useTexts } from "../../texts/TextsContext";
 import { formatTime } from "../parts/format";
 import { figureText, gradeText, missingText } from "./drilling";
@@ -54,7 +55,7 @@ function Content({
         <p className="bad">▲ {interpolate(texts.unread, { names: unread.join(", ") })}</p>
       )}
       {running > 0 && <p className="bad">▲ {pluralize(texts.running, running, all.language)}</p>}
-      {drillings.length === 0 && job === null && <p className="soft">{texts.none}</p>}
+      {drillings.length === 0 && job === null && <EmptyState drawing="recording" sentence={texts.none} />}
       {drillings.length > 0 && (
         <Table.ScrollContainer minWidth={0} className="stacked">
           <Table verticalSpacing="sm">

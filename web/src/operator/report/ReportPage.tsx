@@ -1,12 +1,13 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { Link } from "wouter";
 import {
   getCasesByCaseId,
   getCasesByCaseIdDocuments,
   getCasesByCaseIdDocumentsByDocumentId,
   getProcedure,
 } from "../../api";
+import { EmptyState } from "../../panes/EmptyState";
+import { PageLink } from "../../rest/PageLink";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
@@ -31,12 +32,9 @@ export function ReportPage(): ReactNode {
   if (data === null) return <QueryStatus query={procedure} />;
   if (data.case_id === null) {
     return (
-      <p className="card-lead">
-        {texts.noCase}{" "}
-        <Link className="way" href="/operator/case">
-          {texts.toCases}
-        </Link>
-      </p>
+      <EmptyState drawing="case" sentence={texts.noCase}>
+        <PageLink page="case" />
+      </EmptyState>
     );
   }
   return <Report key={data.case_id} caseId={data.case_id} />;

@@ -1,6 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { toolCertificateText } from "../../panes/certificateText";
+import { EmptyState } from "../../panes/EmptyState";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useCertificates, type ToolCertification } from "../../rest/useCertificates";
@@ -41,7 +42,7 @@ export function CertificateCard(): ReactNode {
       {query.data === null ? (
         <QueryStatus query={query} />
       ) : query.data.tools.length === 0 ? (
-        <p className="soft">{texts.noPicture}</p>
+        <EmptyState drawing="camera" sentence={texts.noPicture} />
       ) : (
         query.data.tools.map((tool) => <ToolState key={tool.tool} tool={tool} texts={texts} />)
       )}

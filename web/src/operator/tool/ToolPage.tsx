@@ -1,6 +1,8 @@
 import { useState, type ReactNode } from "react";
+import { EmptyState } from "../../panes/EmptyState";
 import { VideoPane } from "../../panes/VideoPane";
 import { getTools, postToolsCollection } from "../../api";
+import { PageLink } from "../../rest/PageLink";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
@@ -49,7 +51,9 @@ export function ToolPage(): ReactNode {
   if (procedure.data?.case_id === null)
     return (
       <div className="cards">
-        <p className="card-lead">{texts.noCase}</p>
+        <EmptyState drawing="case" sentence={texts.noCase}>
+          <PageLink page="case" />
+        </EmptyState>
         <CertificateCard />
       </div>
     );

@@ -3,7 +3,6 @@ import type { CheckTexts } from "./en";
 export const checkDe: CheckTexts = {
   title: "Prüfung an einer Landmarke",
   needsRegistration: "Es gibt keine gültige Registrierung, die geprüft werden könnte.",
-  toRegister: "Zur Registrierung",
   choose: "Landmarke wählen",
   why: "Die Spitze auf eine Landmarke halten, die nicht zur Registrierung diente. Die Spitze darf höchstens {max} mm von deren geplantem Ort entfernt sein.",
   wasUsed: "für die Registrierung verwendet",

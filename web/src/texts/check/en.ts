@@ -1,7 +1,6 @@
 export const checkEn = {
   title: "Check on a landmark",
   needsRegistration: "There is no valid registration to check.",
-  toRegister: "To registration",
   choose: "Choose a landmark",
   why: "Hold the tip on a landmark that was not used for the registration. The tip may be at most {max} mm from its planned position.",
   wasUsed: "used for the registration",

@@ -33,7 +33,7 @@ export const peopleDe: PeopleTexts = {
   end: "Beenden",
   endHint: "Sitzung beenden von",
   invitations: "Einladungen",
-  noInvitations: "Keine.",
+  noInvitations: "Noch niemand ist eingeladen. Das Formular auf dieser Seite erstellt einen Link mit Code.",
   state: { open: "offen", used: "verwendet", expired: "abgelaufen", revoked: "zurückgezogen" },
   revoke: "Zurückziehen",
   revokeHint: "Einladung zurückziehen von",

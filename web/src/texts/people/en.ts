@@ -31,7 +31,7 @@ export const peopleEn = {
   end: "End",
   endHint: "End the session of",
   invitations: "Invitations",
-  noInvitations: "None.",
+  noInvitations: "Nobody is invited yet. The form on this page makes a link and its code.",
   state: { open: "open", used: "used", expired: "expired", revoked: "withdrawn" },
   revoke: "Withdraw",
   revokeHint: "Withdraw the invitation of",

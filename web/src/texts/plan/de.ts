@@ -8,7 +8,6 @@ export const planDe: PlanTexts = {
   title: "Planung",
   nobodyNamed: "Bedienung",
   noCase: "Es ist kein Fall geöffnet. Eine Planung gehört zu einem Fall.",
-  toCase: "Fall öffnen oder anlegen",
   parts: "Teile der Planung",
   less: "weniger",
   more: "mehr",

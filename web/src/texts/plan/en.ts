@@ -7,7 +7,6 @@ export const planEn = {
   title: "Plan",
   nobodyNamed: "operator",
   noCase: "No case is open. A plan belongs to a case.",
-  toCase: "Open or create a case",
   parts: "Parts of the plan",
   less: "less",
   more: "more",

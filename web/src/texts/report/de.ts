@@ -3,7 +3,6 @@ import type { ReportTexts } from "./en";
 export const reportDe: ReportTexts = {
   title: "Bericht",
   noCase: "Es ist kein Fall geöffnet.",
-  toCases: "Einen Fall öffnen",
   print: "Drucken",
   again: "Aktualisieren",
   made: "Bericht vom",

@@ -1,7 +1,6 @@
 export const reportEn = {
   title: "Report",
   noCase: "No case is open.",
-  toCases: "Open a case",
   print: "Print",
   again: "Refresh",
   made: "Report of",

@@ -4,6 +4,7 @@ export const restEn = {
     "The request may not have been executed. Check the connection to the server, then try again.",
   loading: "Loading …",
   again: "Try again",
+  goTo: "Go to {page}",
   waiting: "waiting",
   cancel: "Cancel",
   cancelled: "Cancelled. Nothing was saved.",

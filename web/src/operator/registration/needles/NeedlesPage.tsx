@@ -1,5 +1,7 @@
 import { useState, type ReactNode } from "react";
 import { getPlan } from "../../../api";
+import { EmptyState } from "../../../panes/EmptyState";
+import { PageLink } from "../../../rest/PageLink";
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
@@ -24,7 +26,12 @@ export function NeedlesPage(): ReactNode {
   if (plan.data === null) return <QueryStatus query={plan} Note={RegistrationRejection} />;
   const name = plan.data.active_channel?.vertebra ?? "";
   const vertebra = plannedVertebrae(plan.data.plan).find((one) => one.name === name);
-  if (vertebra === undefined) return <p className="warning">▲ {texts.noVertebra}</p>;
+  if (vertebra === undefined)
+    return (
+      <EmptyState drawing="plan" sentence={texts.noVertebra}>
+        <PageLink page="plan" />
+      </EmptyState>
+    );
   const landmarks = chosen ?? (vertebra.hasReference ? [] : null);
   if (!measured || landmarks === null)
     return (

@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { EmptyState } from "../../../panes/EmptyState";
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
@@ -11,7 +12,7 @@ export function NudgesPage(): ReactNode {
   const procedure = useProcedure();
   const step = procedure.data?.steps.find((one) => one.step === "register");
   if (step === undefined) return <QueryStatus query={procedure} />;
-  if (step.state !== "done") return <p className="warning">▲ {texts.needsRegistration}</p>;
+  if (step.state !== "done") return <EmptyState drawing="registration" sentence={texts.needsRegistration} />;
   return (
     <div className="work">
       <LiveStage />
