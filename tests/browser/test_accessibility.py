@@ -9,21 +9,16 @@ from urllib.request import urlopen
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from tests.browser.axe import load_axe, violations, violations_in_both_themes
 from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, WatchedPage
 
 pytestmark = pytest.mark.browser
 
 WEB = CHECKOUT / "web"
-AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
 STEPS = re.findall(r'\{ name: "(\w+)",', (WEB / "src" / "operator" / "pages.ts").read_text(encoding="utf-8"))
 # Where the guide is not built, its address answers how to build it.
 NOT_BUILT = 503
 THEATRE, LYING, UPRIGHT, PHONE = (1920, 1080), (1280, 800), (800, 1280), (390, 844)
-# The scene's frame contains viser's own page, which this project does not control.
-RUN = """options => axe
-    .run(document, { iframes: false, resultTypes: ["violations"], ...options })
-    .then(found => found.violations.map(({ id, impact, nodes }) =>
-        ({ id, impact, nodes: nodes.map(node => node.html) })))"""
 
 
 def patient(port: int) -> dict[str, Any]:
@@ -35,11 +30,10 @@ def patient(port: int) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def watched(browser: Browser, shared_theatre: Theatre) -> Iterator[WatchedPage]:
-    """The page of these tests, with axe-core loaded."""
+    """The page of these tests."""
     said = patient(shared_theatre.port)
     context = browser.new_context(locale="en-GB", color_scheme="dark")
     context.set_default_timeout(PATIENCE_MS)
-    context.add_init_script(path=AXE)
     context.route("**/api/dashboard", lambda route: route.fulfill(json=said))
     yield WatchedPage(context.new_page(), shared_theatre.port)
     context.close()
@@ -62,26 +56,20 @@ def opened(watched: WatchedPage, shared_theatre: Theatre) -> Iterator[Callable[.
     assert watched.strangers == []
 
 
-def faults(page: Page, **options: Any) -> list[dict[str, Any]]:  # noqa: ANN401  axe's own options
-    """Violations that axe-core rates serious or critical."""
-    found: list[dict[str, Any]] = page.evaluate(RUN, options)
-    return [fault for fault in found if fault["impact"] in ("serious", "critical")]
-
-
 @pytest.mark.parametrize(
     "size", [THEATRE, LYING, UPRIGHT, PHONE], ids=["theatre", "lying", "upright", "phone"]
 )
 def test_the_theatre_s_view(opened: Callable[..., Page], size: tuple[int, int]) -> None:
     page = opened("/theatre", size)
     expect(page.get_by_test_id("video")).to_have_attribute("data-live", "true", timeout=PATIENCE_MS)
-    assert faults(page) == []
+    assert violations(page) == []
 
 
 def test_the_cuts_in_the_patient_s_planes(opened: Callable[..., Page]) -> None:
     page = opened("/theatre", THEATRE)
     page.get_by_test_id("tile-anatomical").click()
     expect(page.get_by_test_id("cut-anatomical-sagittal")).to_be_visible(timeout=PATIENCE_MS)
-    assert faults(page) == []
+    assert violations(page) == []
     page.get_by_test_id("tile-anatomical").click()
 
 
@@ -93,6 +81,7 @@ def test_numbers_stand_out_more_than_words_have_to(
     expect(page.locator("[data-reading=depth]")).to_have_attribute(
         "data-status", "through", timeout=PATIENCE_MS
     )
+    load_axe(page)
     enhanced = {"runOnly": {"type": "rule", "values": ["color-contrast-enhanced"]}}
     found = page.evaluate(
         "options => axe.run('.readings', options).then(found => found.violations.map(one => one.nodes))",
@@ -108,7 +97,7 @@ def test_the_theatre_s_view_while_nothing_is_well(
     shared_theatre.tell("lost")
     expect(page.get_by_test_id("alert")).to_be_visible(timeout=PATIENCE_MS)
     expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
-    assert faults(page) == []
+    assert violations(page) == []
     # The server's English sentences on a German page are marked with their language.
     expect(page.get_by_test_id("alert").locator("[lang=en]").first).to_contain_text("camera")
 
@@ -121,7 +110,7 @@ def test_every_page_of_the_operator(opened: Callable[..., Page], watched: Watche
     link.click()
     expect(link).to_have_attribute("aria-current", "step", timeout=PATIENCE_MS)
     expect(page.locator(".step h2").first).to_be_visible(timeout=PATIENCE_MS)
-    assert faults(page) == []
+    assert violations_in_both_themes(page) == []
     assert small_targets(page) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= LYING[0]
 
@@ -165,7 +154,7 @@ def test_a_page_that_lacks_something_leads_to_where_it_comes_from(
 def test_every_other_view(opened: Callable[..., Page], path: str) -> None:
     page = opened(path, UPRIGHT if path == "/operator" else LYING)
     page.wait_for_function("() => document.body.innerText.length > 20")
-    assert faults(page) == []
+    assert violations_in_both_themes(page) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]  # pyrefly: ignore[unsupported-operation]  # it has one
 
 
@@ -174,7 +163,7 @@ def test_the_supervisor_s_view_while_it_is_live(opened: Callable[..., Page]) -> 
     for size in (PHONE, LYING):
         page.set_viewport_size({"width": size[0], "height": size[1]})
         expect(page.get_by_test_id("cut-probe")).to_have_attribute("data-shows", "bare", timeout=PATIENCE_MS)
-        assert faults(page) == []
+        assert violations(page) == []
 
 
 def test_the_light_theme(opened: Callable[..., Page], shared_theatre: Theatre) -> None:
@@ -186,10 +175,10 @@ def test_the_light_theme(opened: Callable[..., Page], shared_theatre: Theatre) -
         expect(page.locator("html")).to_have_attribute("data-theme", "light")
         over = page.locator("[data-reading=wall]")
         expect(over).to_have_attribute("data-status", "over", timeout=PATIENCE_MS)
-        assert faults(page) == []
+        assert violations(page) == []
     opened("/enter")
     expect(page.get_by_test_id("enter")).to_be_visible(timeout=PATIENCE_MS)
-    assert faults(page) == []
+    assert violations(page) == []
     opened("/supervisor")
     page.get_by_test_id("theme").click()
     expect(page.locator("html")).to_have_attribute("data-theme", "dark")
@@ -201,6 +190,23 @@ def test_the_light_theme(opened: Callable[..., Page], shared_theatre: Theatre) -
     opened("/theatre")
     expect(page.locator("html")).to_have_attribute("data-theme", "dark")
     page.emulate_media(color_scheme="dark")
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_each_layout_of_the_theatre_in_both_themes(
+    opened: Callable[..., Page], shared_theatre: Theatre, theme: str
+) -> None:
+    page = opened("/theatre", THEATRE)
+    page.evaluate("theme => localStorage.setItem('coaxial.theme', JSON.stringify({ theatre: theme }))", theme)
+    shared_theatre.tell("near")
+    for layout in ("approach", "align", "drill", "figures"):
+        opened(f"/theatre?layout={layout}", THEATRE)
+        expect(page.locator("html")).to_have_attribute("data-theme", theme)
+        expect(page.locator("[data-reading=wall]")).to_have_attribute(
+            "data-status", "over", timeout=PATIENCE_MS
+        )
+        assert violations(page) == []
+    page.evaluate("localStorage.clear()")
 
 
 def test_the_alarms_cover_nothing_of_a_page_that_is_scrolled(

@@ -16,6 +16,7 @@ from server.errors import CaptureError
 from server.live import ImageClock, LiveHub
 from server.loop.phone_inbox import PhoneInbox
 from server.stream.phone.receiver import Receiver
+from tests.browser.axe import violations_in_both_themes
 from tests.browser.theatre import PATIENCE_MS, save_screenshot
 from tests.served import served
 
@@ -110,10 +111,12 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     expect(page.get_by_test_id("phone")).to_have_attribute("data-state", "sending")
     expect(page.get_by_test_id("phone")).to_contain_text("1280 × 720 px")
     expect(page.get_by_test_id("phone-server")).to_be_visible()
+    assert violations_in_both_themes(page) == []
     save_screenshot(page, "phone_upright")
 
     # A second device is rejected with a reason, and the first continues.
     second = opened(browser, port, LYING)
+    assert violations_in_both_themes(second) == []
     save_screenshot(second, "phone_lying_idle")
     touch_start(second)
     expect(second.get_by_test_id("phone-problem")).to_contain_text("PHONE_TAKEN")

@@ -8,6 +8,7 @@ import av
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.browser.axe import violations_in_both_themes
 from tests.browser.supervised import Supervised, opened
 from tests.browser.theatre import PATIENCE_MS, WatchedPage, save_screenshot
 from tests.server.recording.reviewed import DRILLED
@@ -131,6 +132,7 @@ def test_any_instant_of_a_recording_is_reviewed(
         shape = button.bounding_box()
         assert shape is not None
         assert min(shape["width"], shape["height"]) >= 44, button.inner_text()
+    assert violations_in_both_themes(page) == []
     page.get_by_test_id("review").scroll_into_view_if_needed()
     save_screenshot(page, f"recording-review-{size[0]}")
 

@@ -27,6 +27,8 @@ THEMES = ("dark", "light")
 PATIENCE_MS = 60_000
 # Long enough that a busy machine's late images stay on the page.
 OLD_MS = 600_000
+# What the state is about may be further down.
+IN_SIGHT = "elements => elements[0]?.scrollIntoView({ block: 'nearest' })"
 # Layout and canvases follow the size of the window within some frames.
 SETTLED = """() => new Promise(resolve => {
     let frames = 8;
@@ -59,6 +61,9 @@ class Photographer:
     def _open(self, watched: WatchedPage, state: State) -> list[str]:
         page = watched.open(state.path)
         try:
+            if state.event:
+                page.locator(state.event).first.wait_for()
+                self._stage.tell(state.next_order)
             for step in state.clicks:
                 click(page, step)
             page.locator(state.ready).first.wait_for()
@@ -69,6 +74,7 @@ class Photographer:
     def _picture(self, watched: WatchedPage, state: State, size: str, problems: Sequence[str]) -> Picture:
         page = watched.page
         page.set_viewport_size(size_of(size))
+        page.locator(state.ready).first.evaluate_all(IN_SIGHT)
         page.evaluate(SETTLED)
         file = f"{state.name}-{size}-{self._theme}.png"
         page.screenshot(path=self._folder / file, animations="disabled")

@@ -6,7 +6,8 @@
         const kind = element.tagName.toLowerCase();
         const named = testid ? `[${testid}]` : [...element.classList].slice(0, 2).map((one) => `.${one}`).join("");
         const text = (element.innerText ?? element.textContent ?? "").trim().replace(/\s+/g, " ").slice(0, 40);
-        return `${kind}${named} "${text}"`;
+        // Figures change from image to image.
+        return `${kind}${named} "${text.replace(/[−-]?\d+(\.\d+)?/g, "#")}"`;
     };
     const isShown = (element) =>
         element.checkVisibility({ opacityProperty: true, visibilityProperty: true }) &&
@@ -18,13 +19,14 @@
         let cutBy = null;
         const [canScroll, slack] = [{ x: false, y: false }, parseFloat(getComputedStyle(element).fontSize) * 0.3];
         for (let at = element; at !== null; at = at.parentElement) {
-            const { overflowX, overflowY, position } = getComputedStyle(at);
+            const { overflowX, overflowY, overflowClipMargin, position } = getComputedStyle(at);
             const isRoot = at === document.documentElement;
             const edge = isRoot
                 ? { left: 0, top: 0, right: innerWidth, bottom: innerHeight }
                 : at.getBoundingClientRect();
             const [hidesX, hidesY] = [/hidden|clip/.test(overflowX), /hidden|clip/.test(overflowY)];
-            const outX = !canScroll.x && (edge.left - box.left > 1 || box.right - edge.right > 1);
+            const margin = overflowX === "clip" ? parseFloat(overflowClipMargin) || 0 : 0;
+            const outX = !canScroll.x && (edge.left - box.left > margin + 1 || box.right - edge.right > margin + 1);
             const outY = !canScroll.y && (edge.top - box.top > slack || box.bottom - edge.bottom > slack);
             if ((hidesX && outX) || (hidesY && outY)) cutBy ??= at;
             if (overflowX !== "visible") [left, right] = [Math.max(left, edge.left), Math.min(right, edge.right)];
@@ -34,6 +36,16 @@
             if (position === "fixed") break;
         }
         return { seen: new DOMRect(left, top, right - left, bottom - top), cutBy };
+    };
+
+    // What floats above the page, with a ground of its own.
+    const layerOf = (target) => {
+        for (let at = target.parentElement; at !== null; at = at.parentElement) {
+            const { position, backgroundColor } = getComputedStyle(at);
+            if (at.role === "dialog") return at;
+            if (/absolute|fixed/.test(position) && /^rgb\(/.test(backgroundColor)) return at;
+        }
+        return null;
     };
 
     const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
@@ -48,7 +60,8 @@
         const { cutBy } = clipped(element, box);
         // Text for screen readers has a box of one pixel.
         if (cutBy === null || cutBy.clientWidth <= 2) continue;
-        faults.add(`text cut off: ${name(element)} by ${name(cutBy).split(" ")[0]}`);
+        const kind = getComputedStyle(cutBy).textOverflow === "ellipsis" ? "text shortened" : "text cut off";
+        faults.add(`${kind}: ${name(element)} by ${name(cutBy).split(" ")[0]}`);
     }
 
     const targets = [...document.querySelectorAll("button, a[href], input, select, textarea, summary, [role=button], [role=slider]")]
@@ -66,6 +79,7 @@
     for (const [index, first] of targets.entries()) {
         for (const second of targets.slice(index + 1)) {
             if (first.target.contains(second.target) || second.target.contains(first.target)) continue;
+            if (layerOf(first.target) !== layerOf(second.target)) continue;
             const [a, b] = [first.seen, second.seen];
             const width = Math.min(a.right, b.right) - Math.max(a.left, b.left);
             const height = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);

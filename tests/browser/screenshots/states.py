@@ -28,7 +28,9 @@ class State:
         name: Of the picture.
         path: Address, without its first slash.
         order: What the server is told before, if anything.
-        ready: CSS selector of what is visible then.
+        event: CSS selector of what must have been visible, if anything.
+        next_order: What the server is told after that.
+        ready: CSS selector of what is visible then, and is brought into sight.
         person: Who is signed in, on a server with users.
         clicks: Test ids of what is clicked, in order.
         has_real_limits: Whether the page keeps the server's age limits, so that numbers become old.
@@ -38,6 +40,8 @@ class State:
     path: str
     ready: str
     order: str = ""
+    event: str = ""
+    next_order: str = ""
     person: str = ""
     clicks: Sequence[str] = ()
     has_real_limits: bool = False
@@ -57,6 +61,7 @@ class Stage:
 
 
 LIVE_VIDEO = "[data-testid=video][data-live=true]"
+LIVE_NUMBERS = "[data-testid=numbers][data-live=true]"
 STEPS = ("case", "camera", "tool", "plan", "register", "check", "navigate", "recordings", "report", "people")
 WAYS = ("points", "needles", "sweep", "nudges")
 
@@ -101,7 +106,14 @@ THEATRE_STATES = (
         order="insufficient",
         ready="[data-verdict=setup_insufficient]",
     ),
-    State(name="theatre-latched", path="theatre", order="path", ready=".alarms[data-state=latched]"),
+    State(
+        name="theatre-latched",
+        path="theatre?latched",
+        order="breach",
+        event=".alarms[data-priority=high]",
+        next_order="path",
+        ready="[data-testid=headline-event]:not(:empty)",
+    ),
     State(name="theatre-details", path="theatre", order="path", clicks=("more",), ready=LIVE_VIDEO),
     State(name="theatre-scene", path="theatre?", order="path", clicks=("tile-scene",), ready=LIVE_VIDEO),
     State(name="theatre-unseen", path="theatre", order="unseen", ready="[data-testid=no-tracking]"),
@@ -113,9 +125,9 @@ THEATRE_STATES = (
         order="lost",
         ready="[data-testid=alert]",
     ),
-    State(name="supervisor-camera-lost", path="supervisor", order="lost", ready="main"),
+    State(name="supervisor-camera-lost", path="supervisor", order="lost", ready="[data-testid=alert]"),
     State(name="supervisor-breach", path="supervisor", order="breach", ready=".alarms[data-priority=high]"),
-    State(name="supervisor-path", path="supervisor", order="path", ready=LIVE_VIDEO),
+    State(name="supervisor-path", path="supervisor", order="path", ready=figure("wall", "within")),
     *(
         State(name=f"operator-empty-{step}", path=f"operator/{step}", order="live", ready=".step h2")
         for step in STEPS
@@ -135,12 +147,12 @@ THEATRE_STATES = (
         name="supervisor-stale",
         path="supervisor?stale",
         order="stop",
-        ready="main",
+        ready="[data-testid=no-tracking]",
         has_real_limits=True,
     ),
 )
 SUPERVISED_STATES = (
-    State(name="supervised-supervisor", path="supervisor", person="s1", ready=LIVE_VIDEO),
+    State(name="supervised-supervisor", path="supervisor", person="s1", ready=LIVE_NUMBERS),
     *(
         State(
             name=f"supervised-{fold}",
@@ -194,7 +206,7 @@ REHEARSAL_STATES = (
     State(
         name="rehearsal-anatomical", path="theatre?anatomical", clicks=("tile-anatomical",), ready=LIVE_VIDEO
     ),
-    State(name="rehearsal-supervisor", path="supervisor", ready=LIVE_VIDEO),
+    State(name="rehearsal-supervisor", path="supervisor", ready=CUT),
     State(name="rehearsal-navigate", path="operator/navigate", ready=".step h2"),
 )
 CAMERA_STATES = (

@@ -61,6 +61,17 @@ describe("in a cut along a drill in the planned axis", () => {
     expect(labels.map((one) => one.text)).toEqual(["10", "20", "30", "40", "50"]);
   });
 
+  test("a tick whose label would be cut off has none", () => {
+    const labelsOf = (heightMm: number): string[] => {
+      const grid = cutGrid("axial", ON_AXIS.pose, { widthMm: 80, heightMm }, 0);
+      const plan = { channel: channel(), drill: ON_AXIS, aheadMm: 0, maxOffsetMm: 1.8 };
+      return overlayOf("axial", grid, plan).labels.map((one) => one.text);
+    };
+    // The tip is 0.62 of the height below the upper edge.
+    expect(labelsOf(52)).toEqual(["10", "20", "30"]);
+    expect(labelsOf(51)).toEqual(["10", "20"]);
+  });
+
   test("the cone opens from the tip's ellipse", () => {
     const spread = {
       coneDeg: 2,

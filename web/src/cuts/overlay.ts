@@ -48,6 +48,8 @@ const TICKS_MM = [10, 20, 30, 40, 50];
 const TICK_HALF_MM = 1.6;
 const SHAFT_MM = 200;
 const CROSS_MM = 0.9;
+/** Half of a label on the smallest cuts. */
+const LABEL_MARGIN_MM = 2;
 const WALL_MM = 1.1;
 const ARROW_MM = 2.2;
 const CORNERS = 64;
@@ -102,6 +104,8 @@ export function overlayOf(
     if (isAnatomical(name)) drawThrough(overlay, grid, drill);
     else drawAlong(overlay, grid, drill);
   }
+  // A part of a number is another number.
+  overlay.labels = overlay.labels.filter(({ at }) => isWithin(grid, at, LABEL_MARGIN_MM));
   return overlay;
 }
 
@@ -109,6 +113,12 @@ function plannedOf({ entry_in_vertebra_mm, target_in_vertebra_mm }: ChannelMessa
   const [entry, target] = [vec3(entry_in_vertebra_mm), vec3(target_in_vertebra_mm)];
   if (entry === null || target === null) return null;
   return { entry, target, axis: unit(minus(target, entry)) };
+}
+
+function isWithin(grid: PixelGrid, [x, y]: Vec2, marginMm: number): boolean {
+  const frame = frameOf(grid);
+  const [right, bottom] = [frame.x + frame.width, frame.y + frame.height];
+  return Math.min(x - frame.x, right - x, y - frame.y, bottom - y) >= marginMm;
 }
 
 function edgesOf(grid: PixelGrid): Overlay["edges"] {

@@ -45,12 +45,13 @@ export function Player({ number, images, atS, isPlaying, onPlay, onNumber }: Pla
       <Slider
         className="review-scrubber"
         size="xl"
-        thumbSize={40}
+        thumbSize={44}
         min={0}
         max={Math.max(images - 1, 1)}
         label={null}
         value={number}
-        thumbProps={{ "aria-label": own.scrubber, "aria-valuetext": clockDuration(atS) }}
+        thumbLabel={own.scrubber}
+        thumbProps={{ "aria-valuetext": clockDuration(atS) }}
         onChange={onNumber}
       />
     </div>
