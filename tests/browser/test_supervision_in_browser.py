@@ -117,6 +117,13 @@ def marks_on_a_cut_reach(theatre: Page, sato: Page) -> None:
     sato.get_by_test_id("layout-drill").click()
     expect(sato.locator(".board")).to_have_attribute("data-board-layout", "drill")
     expect(theatre.get_by_test_id("theatre")).to_have_attribute("data-layout", "overview")
+    # Each knows what the other sees.
+    drill = "Supervisor, Drill · In-line axial, In-line sagittal"
+    theatre.get_by_test_id("more").click()
+    expect(theatre.get_by_test_id("looks")).to_contain_text(drill)
+    save_screenshot(theatre, "looks-in-theatre")
+    theatre.keyboard.press("Escape")
+    expect(sato.get_by_test_id("watching")).to_contain_text("Overview · Video")
     assert sato.evaluate("document.querySelector('.first-screen').getBoundingClientRect().bottom") <= 800
 
 

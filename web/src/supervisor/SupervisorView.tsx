@@ -16,7 +16,7 @@ import { Recordings } from "../recording/Recordings";
 import { RecordingState } from "../recording/RecordingState";
 import type { Signable } from "../room/messages";
 import { useRoomSnapshot } from "../room/RoomContext";
-import { Viewers } from "../room/Viewers";
+import { ViewerLooks, Viewers } from "../room/Viewers";
 import { LayoutBar } from "../theatre/layouts/LayoutBar";
 import { useIsWide, WIDE_BOARD } from "../theatre/layouts/useIsWide";
 import { useLayouts } from "../theatre/layouts/useLayouts";
@@ -63,6 +63,9 @@ export function SupervisorView(): ReactNode {
       <section className="supervisor-folds" aria-label={texts.theatre.more}>
         <Fold id="steps" title={own.steps.title} open>
           <StepsShown />
+        </Fold>
+        <Fold id="looks" title={texts.room.what}>
+          <ViewerLooks />
         </Fold>
         <Signables />
         <Fold id="recordings" title={texts.operator.page.recordings}>
