@@ -43,6 +43,7 @@ def room_router(room_hub: RoomHub, viewers: Viewers) -> APIRouter:
             view=View.SUPERVISOR,
             since="",
             bucket=TokenBucket.full(rate_hz=0.0, capacity=0.0, now_s=now_s),
+            look_bucket=TokenBucket.full(rate_hz=0.0, capacity=0.0, now_s=now_s),
         )
         return room_message(SentState().update(room_hub.state()), session=nobodys)
 

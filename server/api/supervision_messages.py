@@ -11,7 +11,17 @@ from server.security import Role
 from server.stream.message import Message
 from server.supervision.hold_storage import HoldRequest
 from server.supervision.marks import CutPlane, Drawing, Pointer, Shape, Vector
-from server.supervision.participants import ConnectionState, Participant, RoomSession, View
+from server.supervision.participants import (
+    ConnectionState,
+    Freshness,
+    Look,
+    PageLook,
+    Participant,
+    Picture,
+    RoomSession,
+    View,
+    ViewPart,
+)
 from server.supervision.room_updates import DrawingExtension, RoomUpdate
 from server.supervision.signatures import Requirement, Signable
 from server.texts import requested_language
@@ -32,12 +42,27 @@ MAX_POINTS_A_MESSAGE = 60
 Points = Annotated[list[MarkPointMessage], Field(min_length=1, max_length=MAX_POINTS_A_MESSAGE)]
 
 
+class PageMessage(Message):
+    """An open page of a person, and what it shows."""
+
+    view: View
+    part: ViewPart | None
+    """Layout, or page of the operator's view; null where the view has none or has not reported it."""
+    pictures: list[Picture]
+    """Visible pictures, the largest first."""
+    freshness: Freshness
+    """old: picture and figures are covered; hidden: the page is in the background; unknown: not reported."""
+    max_age_ms: float | None
+    """Upper limit of the age on this page in the last second, in steps; null if it is not live."""
+
+
 class PersonMessage(Message):
     """A person in the room, listed once for all their pages."""
 
     name: str
     role: Role
-    views: list[View]
+    pages: list[PageMessage]
+    """Pages that show the same are listed once."""
     since: str
     """UTC, ISO 8601."""
     line: ConnectionState
@@ -226,6 +251,15 @@ class ExtendCommand(Message):
     """On what it was started on."""
 
 
+class LookCommand(Message):
+    """Report what your page shows, at most twice a second; for any role."""
+
+    part: ViewPart | None
+    pictures: Annotated[list[Picture], Field(max_length=len(Picture))]
+    freshness: Freshness
+    max_age_ms: Annotated[float, Field(ge=0.0, le=1e6, allow_inf_nan=False)] | None
+
+
 class ClientMessage(Message):
     """One command of a client in the room."""
 
@@ -238,6 +272,7 @@ class ClientMessage(Message):
     extend: ExtendCommand | None = None
     undo: Literal[True] | None = None
     clear: Literal["own", "all"] | None = None
+    look: LookCommand | None = None
 
     @model_validator(mode="after")
     def _one_thing(self) -> Self:
@@ -324,6 +359,27 @@ def _plane(plane: CutPlane | None) -> CutPlaneMessage | None:
     )
 
 
+def look_of(command: LookCommand) -> Look:
+    """Return what a page shows."""
+    return Look(
+        part=command.part,
+        pictures=tuple(command.pictures),
+        freshness=command.freshness,
+        max_age_ms=command.max_age_ms,
+    )
+
+
+def _page(page: PageLook) -> PageMessage:
+    look = page.look
+    return PageMessage(
+        view=page.view,
+        part=look.part,
+        pictures=list(look.pictures),
+        freshness=look.freshness,
+        max_age_ms=look.max_age_ms,
+    )
+
+
 def _hold(asking: tuple[HoldRequest, ...], your_id: str) -> HoldMessage:
     return HoldMessage(
         requested_by=[one.name for one in asking],
@@ -336,7 +392,7 @@ def _person(one: Participant, your_id: str) -> PersonMessage:
     return PersonMessage(
         name=one.name,
         role=one.role,
-        views=list(one.views),
+        pages=[_page(page) for page in one.pages],
         since=one.since,
         line=one.connection,
         is_you=one.person_id == your_id,

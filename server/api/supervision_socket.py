@@ -6,6 +6,7 @@ unchanged parts are not repeated. The time until the next request of the client 
 
 Supervisors and the operator may also send `point`, `lift`, `draw`, `extend`, `undo` and `clear`
 (`ClientMessage`). Marks are made on the video image or, with a plane, on a cut of the CT.
+Every page may send `look`, what it shows, which is neither logged nor recorded.
 Commands without permission, or too many, close the connection with 1008 or 1009.
 """
 
@@ -16,7 +17,7 @@ import structlog
 from pydantic import ValidationError
 from starlette.websockets import WebSocket
 
-from server.api.supervision_messages import ClientMessage, cut_plane, room_message
+from server.api.supervision_messages import ClientMessage, cut_plane, look_of, room_message
 from server.security import person_of
 from server.stream.connection import connection_of
 from server.stream.errors import TooManyViewers
@@ -74,6 +75,10 @@ async def _talk(websocket: WebSocket, room_hub: RoomHub, viewers: Viewers, here:
             requested.set()
             return
         try:
+            if message.look is not None:
+                if room_hub.room.look(here.session, look_of(message.look), now_s=room_hub.now_s):
+                    room_hub.notify()
+                return
             _do(message, room_hub, here)
         except RoomPolicyViolation as unfair:
             _log.warning("room_misused", by=here.session.person.name, why=str(unfair))

@@ -19,6 +19,78 @@ class View(StrEnum):
     SUPERVISOR = "supervisor"
 
 
+class ViewPart(StrEnum):
+    """Part of a view: the layout of pictures and figures, or the page of the operator's view."""
+
+    APPROACH = "approach"
+    ALIGN = "align"
+    DRILL = "drill"
+    OVERVIEW = "overview"
+    FIGURES = "figures"
+    CASE = "case"
+    CAMERA = "camera"
+    TOOL = "tool"
+    PLAN = "plan"
+    REGISTER = "register"
+    CHECK = "check"
+    NAVIGATE = "navigate"
+    RECORDINGS = "recordings"
+    REPORT = "report"
+    PEOPLE = "people"
+
+
+class Picture(StrEnum):
+    """Pictures of a page: the video, a cut of the CT, or the 3-D scene."""
+
+    VIDEO = "video"
+    PROBE = "probe"
+    AXIAL = "axial"
+    SAGITTAL = "sagittal"
+    ANATOMICAL_AXIAL = "anatomical-axial"
+    ANATOMICAL_SAGITTAL = "anatomical-sagittal"
+    ANATOMICAL_CORONAL = "anatomical-coronal"
+    SCENE = "scene"
+
+
+class Freshness(StrEnum):
+    """Whether a page shows what is happening now."""
+
+    LIVE = "live"
+    OLD = "old"  # its picture and figures are covered
+    HIDDEN = "hidden"  # another tab or window is in front of it
+    UNKNOWN = "unknown"  # it has not reported yet
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Look:
+    """What a page shows, as it reports it.
+
+    Attributes:
+        part: part of its view; None where it has none.
+        pictures: visible pictures, the largest first.
+        freshness: whether they are live.
+        max_age_ms: upper limit of their age in the last second, in steps; None if they are not live.
+    """
+
+    part: ViewPart | None = None
+    pictures: tuple[Picture, ...] = ()
+    freshness: Freshness = Freshness.UNKNOWN
+    max_age_ms: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PageLook:
+    """A page of a person.
+
+    Attributes:
+        view: its view.
+        look: what it shows.
+    """
+
+    view: View
+    look: Look
+
+
 class ConnectionState(StrEnum):
     """State of the connection to a person."""
 
@@ -36,7 +108,9 @@ class RoomSession:
         person: the person.
         view: the view that the page shows.
         since: time of joining, UTC, ISO 8601.
-        bucket: rate limit of its messages.
+        bucket: rate limit of its marks.
+        look_bucket: rate limit of its reports of what it shows.
+        look: the newest of them.
         sent_at_s: send time of the message that it has not answered yet; None while no answer is due.
         round_trip_s: response time of its last answer.
     """
@@ -46,6 +120,8 @@ class RoomSession:
     view: View
     since: str
     bucket: TokenBucket
+    look_bucket: TokenBucket
+    look: Look = field(default_factory=Look)
     sent_at_s: float | None = None
     round_trip_s: float = 0.0
 
@@ -71,7 +147,7 @@ class Participant:
         person_id: id of the person; not sent to others.
         name: display name.
         role: role of the person.
-        views: open views, each once.
+        pages: open pages; those that show the same are listed once.
         since: time at which the oldest open page joined, UTC, ISO 8601.
         connection: state of the best of the person's connections.
     """
@@ -79,7 +155,7 @@ class Participant:
     person_id: str
     name: str
     role: Role
-    views: tuple[View, ...]
+    pages: tuple[PageLook, ...]
     since: str
     connection: ConnectionState
 
@@ -104,7 +180,7 @@ def _present(sessions: list[RoomSession], now_s: float) -> Participant:
         person_id=person.id,
         name=person.name,
         role=person.role,
-        views=tuple(view for view in View if any(session.view is view for session in sessions)),
+        pages=tuple(dict.fromkeys(PageLook(view=one.view, look=one.look) for one in sessions)),
         since=min(session.since for session in sessions),
         connection=next(state for state in ConnectionState if state in connections),
     )

@@ -15,7 +15,7 @@ from server.supervision.marks import (
     Pointer,
     Shape,
 )
-from server.supervision.participants import Participant, RoomSession, View, participants_of
+from server.supervision.participants import Look, Participant, RoomSession, View, participants_of
 from server.supervision.token_bucket import TokenBucket
 
 MAX_SESSIONS = 200
@@ -23,6 +23,8 @@ MAX_SESSIONS_PER_PERSON = 20
 # A page sends at most 25 pointer and 25 drawing messages per second, each with a request for the next
 # message.
 MARKS_PER_SECOND, MARKS_AT_ONCE = 60.0, 120.0
+# A page reports what it shows at most once a second, and messages of a slow connection arrive together.
+LOOKS_PER_SECOND, LOOKS_AT_ONCE = 2.0, 20.0
 # A cut is at most 110 mm wide and high.
 MAX_ON_CUT_MM = 200.0
 MAY_MARK = frozenset({Role.SUPERVISOR, Role.OPERATOR})
@@ -80,7 +82,10 @@ class Room:
             maximum = MAX_SESSIONS_PER_PERSON if own >= MAX_SESSIONS_PER_PERSON else MAX_SESSIONS
             raise RoomFull(f"{maximum} pages are open, the maximum; close one")
         bucket = TokenBucket.full(rate_hz=MARKS_PER_SECOND, capacity=MARKS_AT_ONCE, now_s=now_s)
-        session = RoomSession(number=next(self._numbers), person=person, view=view, since=at, bucket=bucket)
+        looks = TokenBucket.full(rate_hz=LOOKS_PER_SECOND, capacity=LOOKS_AT_ONCE, now_s=now_s)
+        session = RoomSession(
+            number=next(self._numbers), person=person, view=view, since=at, bucket=bucket, look_bucket=looks
+        )
         self._sessions[session.number] = session
         return session
 
@@ -92,6 +97,17 @@ class Room:
     def participants(self, now_s: float) -> tuple[Participant, ...]:
         """Return each person once."""
         return participants_of(self._sessions.values(), now_s)
+
+    def look(self, session: RoomSession, look: Look, *, now_s: float) -> bool:
+        """Set what a page shows, for any role; return whether it changed.
+
+        Raises:
+            RoomPolicyViolation: rate limit.
+        """
+        if not session.look_bucket.take(now_s):
+            raise RoomPolicyViolation(f"at most {LOOKS_PER_SECOND:g} looks per second are accepted")
+        is_new, session.look = session.look != look, look
+        return is_new
 
     def point(
         self,

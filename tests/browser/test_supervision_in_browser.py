@@ -95,7 +95,6 @@ def marks_reach(theatre: Page, sato: Page) -> None:
 def marks_on_a_cut_reach(theatre: Page, sato: Page) -> None:
     # A circle on a cut is in the theatre's cut of the same plane, not on the video; a cut across it shows the
     # parts that it crosses.
-    sato.get_by_test_id("tile-axial").click()
     cut, seen = sato.get_by_test_id("marks-axial"), theatre.get_by_test_id("marks-axial")
     expect(sato.get_by_test_id("cut-axial")).to_have_attribute("data-shows", "live")
     expect(theatre.get_by_test_id("cut-axial")).to_have_attribute("data-shows", "live")
@@ -114,6 +113,18 @@ def marks_on_a_cut_reach(theatre: Page, sato: Page) -> None:
     save_screenshot(sato, "marks-on-a-cut")
     sato.get_by_test_id("marks-undo").click()
     expect(seen).to_have_attribute("data-marks", "0")
+    # The supervisor has the layouts of the theatre, and theirs do not follow each other.
+    sato.get_by_test_id("layout-drill").click()
+    expect(sato.locator(".board")).to_have_attribute("data-board-layout", "drill")
+    expect(theatre.get_by_test_id("theatre")).to_have_attribute("data-layout", "overview")
+    # Each knows what the other sees.
+    drill = "Supervisor, Drill · In-line axial, In-line sagittal"
+    theatre.get_by_test_id("more").click()
+    expect(theatre.get_by_test_id("looks")).to_contain_text(drill)
+    save_screenshot(theatre, "looks-in-theatre")
+    theatre.keyboard.press("Escape")
+    expect(sato.get_by_test_id("watching")).to_contain_text("Overview · Video")
+    assert sato.evaluate("document.querySelector('.first-screen').getBoundingClientRect().bottom") <= 800
 
 
 def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page) -> None:

@@ -6,8 +6,24 @@ import pytest
 
 from server.security import Person, Role
 from server.supervision.marks import MAX_DRAWINGS_PER_PERSON, MAX_POINTS_PER_DRAWING, CutPlane, Moment, Shape
-from server.supervision.participants import ConnectionState, RoomSession, View
-from server.supervision.room import MARKS_AT_ONCE, Room, RoomFull, RoomPolicyViolation, ShownImage
+from server.supervision.participants import (
+    ConnectionState,
+    Freshness,
+    Look,
+    PageLook,
+    Picture,
+    RoomSession,
+    View,
+    ViewPart,
+)
+from server.supervision.room import (
+    LOOKS_AT_ONCE,
+    MARKS_AT_ONCE,
+    Room,
+    RoomFull,
+    RoomPolicyViolation,
+    ShownImage,
+)
 from server.supervision.room_updates import RoomState, RoomUpdate, SentState
 
 SATO = Person(id="s1", name="Dr Sato", role=Role.SUPERVISOR)
@@ -75,13 +91,46 @@ def test_somebody_with_several_pages_is_here_once(scene: Scene) -> None:
     scene.enter(GUEST, View.THEATRE)
     scene.now_s += 60
     scene.enter(SATO, View.THEATRE)
-    reported = [(one.name, one.role, one.views, one.since) for one in scene.room.participants(scene.now_s)]
+    reported = [
+        (one.name, one.role, [page.view for page in one.pages], one.since)
+        for one in scene.room.participants(scene.now_s)
+    ]
     assert reported == [
-        ("Dr Sato", Role.SUPERVISOR, (View.THEATRE, View.SUPERVISOR), "at 100"),
-        ("Guest", Role.VIEWER, (View.THEATRE,), "at 100"),
+        ("Dr Sato", Role.SUPERVISOR, [View.SUPERVISOR, View.THEATRE], "at 100"),
+        ("Guest", Role.VIEWER, [View.THEATRE], "at 100"),
     ]
     scene.room.leave(first)
-    assert scene.room.participants(scene.now_s)[1].views == (View.THEATRE,)
+    assert [page.view for page in scene.room.participants(scene.now_s)[1].pages] == [View.THEATRE]
+
+
+DRILLING = Look(part=ViewPart.DRILL, pictures=(Picture.AXIAL,), freshness=Freshness.LIVE, max_age_ms=200.0)
+
+
+def test_what_a_page_shows_is_listed_with_its_person(scene: Scene) -> None:
+    guest = scene.enter(GUEST, View.THEATRE)
+    first = [page.look.freshness for one in scene.room.participants(scene.now_s) for page in one.pages]
+    assert first == [Freshness.UNKNOWN]
+    assert scene.room.look(guest, DRILLING, now_s=scene.now_s)
+    assert not scene.room.look(guest, DRILLING, now_s=scene.now_s), "nothing has changed"
+    # A second page that shows the same is not listed, another one is.
+    second = scene.enter(GUEST, View.THEATRE)
+    scene.room.look(second, DRILLING, now_s=scene.now_s)
+    (person,) = scene.room.participants(scene.now_s)
+    assert person.pages == (PageLook(view=View.THEATRE, look=DRILLING),)
+    scene.room.look(second, replace(DRILLING, freshness=Freshness.HIDDEN), now_s=scene.now_s)
+    assert len(scene.room.participants(scene.now_s)[0].pages) == 2
+
+
+def test_a_page_that_reports_too_often_is_cut_off(scene: Scene) -> None:
+    session = scene.enter(GUEST, View.THEATRE)
+    for _ in range(60):
+        scene.now_s += 1.0
+        scene.room.look(session, DRILLING, now_s=scene.now_s)
+    scene.now_s += 60.0
+    for _ in range(int(LOOKS_AT_ONCE)):
+        scene.room.look(session, DRILLING, now_s=scene.now_s)
+    with pytest.raises(RoomPolicyViolation, match="looks per second"):
+        scene.room.look(session, DRILLING, now_s=scene.now_s)
 
 
 @pytest.mark.parametrize(

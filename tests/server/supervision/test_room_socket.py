@@ -11,6 +11,7 @@ from fastapi.testclient import TestClient
 from starlette.testclient import WebSocketTestSession
 from starlette.websockets import WebSocketDisconnect
 
+from server.api import supervision_socket
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import Instant, LiveHub
@@ -92,7 +93,10 @@ def test_a_supervisors_mark_is_shown_in_theatre(page: Callable[..., Page], image
     sato, theatre = page("s1"), page("v1", "theatre")
     assert sato.hear()["you"]["name"] == "Dr Sato"
     reported = theatre.until(lambda reported: reported["people"] and len(reported["people"]) == 2)
-    assert [(one["name"], one["role"], one["views"], one["is_you"]) for one in reported["people"]] == [
+    assert [
+        (one["name"], one["role"], [page["view"] for page in one["pages"]], one["is_you"])
+        for one in reported["people"]
+    ] == [
         ("Dr Sato", "supervisor", ["supervisor"], False),
         ("Guest", "viewer", ["theatre"], True),
     ]
@@ -112,6 +116,32 @@ def test_a_supervisors_mark_is_shown_in_theatre(page: Callable[..., Page], image
     assert (more["key"], more["from_point"], more["points"]) == (begun["key"], 2, [[5.0, 6.0]])
     sato.say(undo=True)
     theatre.until(lambda reported: not reported["drawings"])
+
+
+LOOK = {
+    "part": "drill",
+    "pictures": ["axial", "video"],
+    "freshness": "live",
+    "max_age_ms": 200.0,
+}
+
+
+def test_everybody_knows_what_a_page_shows_and_it_is_not_recorded(
+    page: Callable[..., Page], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recorded: list[object] = []
+    monkeypatch.setattr(supervision_socket, "_mark_json", lambda *mark: recorded.append(mark))
+    guest, sato = page("v1", "theatre"), page("s1")
+    guest.say(look=LOOK)
+    reported = sato.until(
+        lambda reported: [one for one in reported["people"] or () if one["pages"][0]["part"] == "drill"]
+    )
+    shown = {one["name"]: one["pages"] for one in reported["people"]}
+    assert shown["Guest"] == [{"view": "theatre", **LOOK}]
+    assert shown["Dr Sato"] == [
+        {"view": "supervisor", "part": None, "pictures": [], "freshness": "unknown", "max_age_ms": None}
+    ]
+    assert recorded == []
 
 
 def test_the_operator_clears_what_others_drew(page: Callable[..., Page], image: dict[str, Any]) -> None:
@@ -190,6 +220,9 @@ DRAW = {**{key: POINT[key] for key in ("image_number", "captured_at_s")}, "key":
         ),
         pytest.param(
             "v1", json.dumps({"point": {**POINT, "plane": PLANE}}), "may not mark", id="a viewer on a cut"
+        ),
+        pytest.param(
+            "v1", json.dumps({"look": {**LOOK, "part": "Mr Smith"}}), "Input should be", id="a free text"
         ),
         pytest.param("s1", json.dumps({"undo": True}).ljust(1025), "1024", id="too long"),
     ],

@@ -2,6 +2,7 @@ import { lazy, Suspense, useEffect, type ComponentType, type ReactNode } from "r
 import { useLocation } from "wouter";
 import { SignInPage } from "../signin/SignInPage";
 import { LiveProvider } from "../live/LiveContext";
+import { LookReport } from "../room/LookReport";
 import { RoomProvider } from "../room/RoomContext";
 import { TourProvider } from "../tour/TourContext";
 import { TheatreView } from "../theatre/TheatreView";
@@ -33,6 +34,7 @@ export function App(): ReactNode {
   return (
     <LiveProvider>
       <RoomProvider view={view}>
+        <LookReport />
         <ProcedureProvider view={view}>
           <TourProvider>
             <Suspense fallback={null}>

@@ -165,6 +165,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
     <Pane id={`cut-${name}`} title={t.title[name]} aside={tabs}>
       <div
         className="cut-stage"
+        data-picture={name}
         data-testid={`cut-${name}`}
         data-live="false"
         data-shows="covered"

@@ -83,7 +83,7 @@ export function ScenePane({ tabs }: { tabs?: ReactNode }): ReactNode {
         </>
       }
     >
-      <div className="scene-stage" data-testid="scene" data-live="false" ref={stage}>
+      <div className="scene-stage" data-picture="scene" data-testid="scene" data-live="false" ref={stage}>
         {wanted && !isOff && hasWebGl() && (
           <iframe
             key={attempt}

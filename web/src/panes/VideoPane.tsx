@@ -83,7 +83,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
         </>
       }
     >
-      <div className="video-stage" data-testid="video" data-live="false" ref={stage}>
+      <div className="video-stage" data-picture="video" data-testid="video" data-live="false" ref={stage}>
         <canvas
           className="sharp"
           ref={canvas}

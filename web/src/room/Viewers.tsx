@@ -1,13 +1,15 @@
 import type { ReactNode } from "react";
 import { useTexts } from "../texts/TextsContext";
-import type { ConnectionState } from "./messages";
+import { lookText, shortLookText } from "./lookText";
+import type { ConnectionState, PageLook, Person } from "./messages";
 import { useRoomSnapshot } from "./RoomContext";
 
 const SYMBOL: Record<ConnectionState, string> = { good: "●", slow: "◐", silent: "▲" };
 
-/** The viewers: number, names, roles and connection quality. */
+/** The viewers: number, names, what they see, roles and connection quality. */
 export function Viewers(): ReactNode {
-  const { room: texts, rest } = useTexts();
+  const all = useTexts();
+  const { room: texts, rest } = all;
   const { isConnected, firstMessage, people } = useRoomSnapshot();
   if (!isConnected) {
     return (
@@ -27,7 +29,9 @@ export function Viewers(): ReactNode {
             <span aria-hidden="true" className="watching-line">
               {SYMBOL[one.line]}
             </span>{" "}
-            <b>{one.name}</b> <span className="watching-role">{texts.role[one.role]}</span>
+            <b>{one.name}</b>{" "}
+            {!one.is_you && <Looks pages={pageInFront(one)} text={(page) => shortLookText(page, all)} />}{" "}
+            <span className="watching-role">{texts.role[one.role]}</span>
             {one.is_you && <span className="watching-role"> · {texts.you}</span>}
             {one.line !== "good" && <em> · {texts.line[one.line]}</em>}
           </li>
@@ -35,4 +39,45 @@ export function Viewers(): ReactNode {
       </ul>
     </div>
   );
+}
+
+/** What each viewer sees, one page a line: whether others see the same, and whether it is live. */
+export function ViewerLooks(): ReactNode {
+  const all = useTexts();
+  const { isConnected, people } = useRoomSnapshot();
+  const texts = all.room;
+  if (!isConnected) return <p className="watching-role">{texts.unknown}</p>;
+  return (
+    <ul className="looks" aria-label={texts.what} data-testid="looks">
+      {people.map((one) => (
+        <li key={`${one.name} ${one.role} ${one.since}`}>
+          <b>{one.name}</b> <span className="watching-role">{texts.role[one.role]}</span>
+          {one.is_you && <span className="watching-role"> · {texts.you}</span>}
+          <Looks pages={one.pages} text={(page) => lookText(page, all)} />
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+/** The page in front, or the first one. */
+function pageInFront({ pages }: Person): readonly PageLook[] {
+  const page = pages.find((one) => one.freshness !== "hidden") ?? pages[0];
+  return page === undefined ? [] : [page];
+}
+
+interface LooksProps {
+  pages: readonly PageLook[];
+  text: (page: PageLook) => string;
+}
+
+function Looks({ pages, text }: LooksProps): ReactNode {
+  return pages.map((page) => {
+    const said = text(page);
+    return (
+      <span key={`${page.view} ${said}`} className="watching-look" data-freshness={page.freshness}>
+        {said}
+      </span>
+    );
+  });
 }

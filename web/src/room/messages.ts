@@ -3,6 +3,7 @@
 import type {
   CutPlaneMessage as CutPlane,
   HoldMessage as Hold,
+  PageMessage as PageLook,
   PersonMessage as Person,
   SignableMessage as Signable,
   YouMessage as You,
@@ -11,7 +12,7 @@ import type {
   Shape,
 } from "../api";
 
-export type { ConnectionState, CutPlane, Hold, Person, RoomMessage, Shape, Signable, You };
+export type { ConnectionState, CutPlane, Hold, PageLook, Person, RoomMessage, Shape, Signable, You };
 
 /** x, y on what is marked: in pixels of the full-size image, or in mm on the plane of a cut. */
 export type Point = readonly [number, number];
@@ -27,6 +28,9 @@ export interface MarkSurface extends Moment {
   plane?: CutPlane;
 }
 
+/** What a page reports of itself. */
+export type Look = Omit<PageLook, "view">;
+
 export type ClientMessage =
   | { next: true }
   | { point: { at: Point } & MarkSurface }
@@ -34,4 +38,5 @@ export type ClientMessage =
   | { draw: { key: number; shape: Shape; points: readonly Point[] } & MarkSurface }
   | { extend: { key: number; points: readonly Point[] } }
   | { undo: true }
-  | { clear: "own" | "all" };
+  | { clear: "own" | "all" }
+  | { look: Look };

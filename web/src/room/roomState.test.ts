@@ -21,7 +21,7 @@ function grown(from_point: number, points: number[][], key = "1-1"): RoomMessage
 describe("what a page knows of the room", () => {
   test("people and signatures stay until new ones are sent", () => {
     const people = [
-      { name: "A", role: "viewer", views: [], since: "", line: "good", is_you: true },
+      { name: "A", role: "viewer", pages: [], since: "", line: "good", is_you: true },
     ] satisfies RoomMessage["people"];
     const first = afterMessage(NOBODY, { ...QUIET, people, signable: [] }, 0);
     const second = afterMessage(first, QUIET, 10);

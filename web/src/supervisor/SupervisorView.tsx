@@ -2,7 +2,6 @@ import type { ReactNode } from "react";
 import { AlarmsAfterFirstMessage } from "../alarms/UnheardAlarms";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
-import { ChosenTile } from "../cuts/CutTile";
 import { CutsProvider } from "../cuts/CutsContext";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
 import { HelpButton } from "../help/HelpButton";
@@ -19,7 +18,11 @@ import { Recordings } from "../recording/Recordings";
 import { RecordingState } from "../recording/RecordingState";
 import type { Signable } from "../room/messages";
 import { useRoomSnapshot } from "../room/RoomContext";
-import { Viewers } from "../room/Viewers";
+import { ViewerLooks, Viewers } from "../room/Viewers";
+import { LayoutBar } from "../theatre/layouts/LayoutBar";
+import { useIsWide, WIDE_BOARD } from "../theatre/layouts/useIsWide";
+import { useLayouts } from "../theatre/layouts/useLayouts";
+import { Tiles } from "../theatre/Tiles";
 import { ThemeButton } from "../theme/ThemeButton";
 import { useTexts } from "../texts/TextsContext";
 import { isLoopback } from "../live/loopback";
@@ -58,24 +61,14 @@ export function SupervisorView(): ReactNode {
         </header>
         <AlarmsAfterFirstMessage />
         <AlertBand />
-        <main className="board">
-          <MarkingProvider>
-            <AfterFirstMessage loading={<LoadingNumbers />}>
-              <NumbersPane />
-            </AfterFirstMessage>
-            <MarksTools />
-            <VideoPane />
-            <HoldPanel />
-            <CutsProvider ctOnRequest={!isLoopback(location.hostname)}>
-              <ChosenTile />
-            </CutsProvider>
-            <AgesStrip />
-          </MarkingProvider>
-        </main>
+        <Board />
       </div>
       <section className="supervisor-folds" aria-label={texts.theatre.more}>
         <Fold id="steps" title={own.steps.title} open>
           <StepsShown />
+        </Fold>
+        <Fold id="looks" title={texts.room.what}>
+          <ViewerLooks />
         </Fold>
         <Signables />
         <Fold id="recordings" title={texts.operator.page.recordings}>
@@ -89,6 +82,32 @@ export function SupervisorView(): ReactNode {
         </Fold>
       </section>
     </div>
+  );
+}
+
+/** Figures, video and cuts: on a laptop in the layouts of the theatre, on a smaller screen with one cut. */
+function Board(): ReactNode {
+  const isWide = useIsWide(WIDE_BOARD);
+  const layouts = useLayouts(isWide);
+  const layout = isWide ? layouts.layout : "overview";
+  return (
+    <main className="board" data-board-layout={isWide ? layout : undefined}>
+      <MarkingProvider>
+        <AfterFirstMessage loading={<LoadingNumbers />}>
+          <NumbersPane />
+        </AfterFirstMessage>
+        <MarksTools />
+        <VideoPane />
+        <HoldPanel />
+        <CutsProvider ctOnRequest={!isLoopback(location.hostname)}>
+          <Tiles layout={layout} isWide={isWide} />
+        </CutsProvider>
+        <div className="board-foot">
+          <AgesStrip />
+          {isWide && <LayoutBar layouts={layouts} />}
+        </div>
+      </MarkingProvider>
+    </main>
   );
 }
 

@@ -7,6 +7,7 @@ import { PictureSize } from "../live/PictureSize";
 import { DetailsPane } from "../panes/DetailsPane";
 import { MarkersPane } from "../panes/MarkersPane";
 import { RecordingState } from "../recording/RecordingState";
+import { ViewerLooks } from "../room/Viewers";
 import { useTexts } from "../texts/TextsContext";
 import { ThemeButton } from "../theme/ThemeButton";
 import { LayoutSettings } from "./layouts/LayoutSettings";
@@ -14,7 +15,7 @@ import type { Layouts } from "./layouts/useLayouts";
 
 /** Scores, times and counts, collapsed by default. */
 export function MoreDetails({ layouts }: { layouts: Layouts }): ReactNode {
-  const texts = useTexts().theatre;
+  const { theatre: texts, room } = useTexts();
   const details = useRef<HTMLDetailsElement>(null);
   return (
     <details
@@ -36,6 +37,10 @@ export function MoreDetails({ layouts }: { layouts: Layouts }): ReactNode {
           <RecordingState testId="recording-more" />
           <SignedIn />
         </div>
+        <section className="viewer-looks" aria-labelledby="looks-title">
+          <h2 id="looks-title">{room.what}</h2>
+          <ViewerLooks />
+        </section>
         <LayoutSettings layouts={layouts} />
         <GuidingSoundSettings />
         <MarkersPane />

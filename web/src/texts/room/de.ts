@@ -11,5 +11,9 @@ export const roomDe: RoomTexts = {
     screen: "OP-Bildschirm",
     camera: "Kamera",
   },
+  what: "Wer sieht was",
+  freshness: { old: "Bild zu alt", hidden: "Seite im Hintergrund", unknown: "nicht gemeldet" },
+  figures: "Nur Zahlen",
+  upTo: "bis # ms alt",
   line: { good: "gute Verbindung", slow: "langsame Verbindung", silent: "antwortet nicht" },
 };

@@ -9,6 +9,10 @@ export const roomEn = {
     screen: "theatre screen",
     camera: "camera",
   },
+  what: "Who sees what",
+  freshness: { old: "picture too old", hidden: "page in the background", unknown: "not reported" },
+  figures: "Figures only",
+  upTo: "up to # ms old",
   line: { good: "good connection", slow: "slow connection", silent: "not answering" },
 };
 
