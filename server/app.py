@@ -26,6 +26,7 @@ from server.api.gates import gates_router
 from server.api.guide import guide_folder, is_guide, mount_guide
 from server.api.health import health_router
 from server.api.jobs import jobs_router
+from server.api.labels import labels_router
 from server.api.language import LanguageMiddleware
 from server.api.latency import latency_router
 from server.api.live import live_router
@@ -322,3 +323,4 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(sweep_router(parts.steps.registration.sweep))
         app.include_router(needles_router(parts.steps.registration, parts.steps.ct_provider))
         app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))
+        app.include_router(labels_router(parts.steps.labels, parts.store, parts.store.home))

@@ -1,4 +1,4 @@
-"""The commands `coaxial plan measure`, `coaxial plan markups` and `coaxial plan series`."""
+"""The commands `coaxial plan measure`, `labels`, `markups` and `series`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 plan_app = typer.Typer(
-    help="Plan on a CT: list its series, measure a pedicle, write a plan for 3D Slicer.",
+    help="Plan on a CT: list its series, measure a pedicle, check labels, write a plan for 3D Slicer.",
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -14,7 +14,7 @@ plan_app = typer.Typer(
 
 @plan_app.callback()
 def plan() -> None:
-    """Plan on a CT: list its series, measure a pedicle, write a plan for 3D Slicer."""
+    """Plan on a CT: list its series, measure a pedicle, check labels, write a plan for 3D Slicer."""
 
 
 @plan_app.command()
@@ -57,6 +57,42 @@ def measure(
         ct=ct, side=side, seed_lps_mm=seed_lps_mm, series=series, config=config, markups=markups
     )
     measure_in_file(options, as_json=json)
+
+
+@plan_app.command()
+def labels(
+    ct: Annotated[Path, typer.Argument(help="Folder or zip of DICOM slices, or a NIfTI file.", metavar="CT")],
+    segmentation: Annotated[
+        Path,
+        typer.Argument(
+            help="NIfTI with all labels, DICOM SEG, or a folder or zip of vertebrae_L3.nii.gz and so on.",
+            metavar="LABELS",
+        ),
+    ],
+    names: Annotated[
+        str,
+        typer.Option(
+            help="Levels of labels that the file does not name; default: numbers of TotalSegmentator v2.",
+            metavar="29:L3,28:L4",
+        ),
+    ] = "",
+    series: Annotated[
+        str | None,
+        typer.Option(help="Series to read if CT contains several; see 'coaxial plan series'.", metavar="ID"),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(help="Also write the labels in the voxels of the CT.", metavar="LABELS.NII.GZ"),
+    ] = None,
+    json: Annotated[
+        bool, typer.Option("--json", help="Write the figures as JSON.", show_default=False)
+    ] = False,
+) -> None:
+    """Check a segmentation of the vertebrae against its CT: levels, volumes, and whether it lies on bone."""
+    from server.cli.plan_labels import LabelOptions, check_labels  # noqa: PLC0415  loaded when needed
+
+    options = LabelOptions(ct=ct, segmentation=segmentation, names=names, series=series, output=output)
+    check_labels(options, as_json=json)
 
 
 @plan_app.command()

@@ -42,10 +42,12 @@ class Entry:
     Attributes:
         size: size in bytes.
         open: opens the file for reading.
+        name: its name without folders; only compared with known names, never reported.
     """
 
     size: int
     open: Callable[[], BinaryIO]
+    name: str = ""
 
     def head(self) -> bytes:
         """Return its first bytes, for the detection of its format."""
@@ -119,7 +121,7 @@ def _checked(container: Container) -> Container:
 
 
 def _file(path: Path, size: int) -> Entry:
-    return Entry(size=size, open=lambda: path.open("rb"))
+    return Entry(size=size, open=lambda: path.open("rb"), name=path.name)
 
 
 def _folder(path: Path) -> Container:
@@ -189,7 +191,11 @@ def _zip(archive: zipfile.ZipFile) -> Container:
 
 
 def _member(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> Entry:
-    return Entry(size=member.file_size, open=lambda: cast("BinaryIO", archive.open(member)))
+    return Entry(
+        size=member.file_size,
+        open=lambda: cast("BinaryIO", archive.open(member)),
+        name=PurePosixPath(member.filename).name,
+    )
 
 
 def _check_archive(members: list[zipfile.ZipInfo]) -> None:

@@ -20,6 +20,7 @@ from server.procedure.channel_proposal import ChannelProposer
 from server.procedure.confirmation_step import ConfirmStep
 from server.procedure.ct import CtProvider, CtStep
 from server.procedure.drill_reference import DrillReferenceBuilder
+from server.procedure.labels import LabelStep
 from server.procedure.latency import LatencyStep
 from server.procedure.markers import MarkerStep
 from server.procedure.navigation_ct import NavigationCtProvider
@@ -63,6 +64,7 @@ class Steps:
         ct_provider: the CT of the open case.
         navigation_ct: its part around the navigated vertebra, for viewers.
         plan: measures pedicles, plans channels, chooses screws.
+        labels: takes in a segmentation of the vertebrae.
         surface: computes the surface of the bone.
         procedure: state of the procedure and order of its steps.
         registration: registers the vertebra on the patient.
@@ -83,6 +85,7 @@ class Steps:
     ct_provider: CtProvider
     navigation_ct: NavigationCtProvider
     plan: PlanStep
+    labels: LabelStep
     surface: SurfaceStep
     procedure: Procedure
     registration: RegistrationSteps
@@ -131,6 +134,7 @@ class Steps:
         _publish_changes(setup_publisher, store)
         ct_provider = CtProvider(store)
         surface = SurfaceStep(store=store, jobs=jobs, ct_provider=ct_provider)
+        labels = LabelStep(store=store, jobs=jobs, ct_provider=ct_provider)
         plan = PlanStep(
             store=store,
             jobs=jobs,
@@ -173,6 +177,7 @@ class Steps:
                 store=store, ct_provider=ct_provider, jobs=jobs, is_rehearsal=_knows_itself(config)
             ),
             plan=plan,
+            labels=labels,
             surface=surface,
             procedure=procedure,
             registration=registration,

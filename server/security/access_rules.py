@@ -122,6 +122,8 @@ GET     /api/registration/check
 GET     /api/registration/nudges
 GET     /api/registration/sweep
 GET     /api/registration/needles/overlay.jpg
+GET     /api/labels
+GET     /api/labels.nii.gz
 GET     /api/surface
 GET     /api/surface.ply
 """
@@ -232,6 +234,7 @@ POST    /api/registration/sweep/conclusion
 POST    /api/registration/needles/proposal
 POST    /api/registration/needles/overlay
 POST    /api/registration/needles/conclusion
+POST    /api/labels
 POST    /api/surface/from-ct
 POST    /api/surface
 """

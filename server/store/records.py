@@ -19,6 +19,7 @@ class DocumentKind(StrEnum):
     MARKER = "marker"
     TOOL = "tool"
     CT = "ct"
+    LABELS = "labels"
     SURFACE = "surface"
     PLAN = "plan"
     REGISTRATION = "registration"

@@ -275,6 +275,7 @@ KINDS: Mapping[str, Text] = {
     "marker": {"en": "marker", "de": "Marker"},
     "tool": {"en": "tool", "de": "Instrument"},
     "ct": {"en": "ct", "de": "CT"},
+    "labels": {"en": "labels", "de": "Wirbel-Labels"},
     "surface": {"en": "surface", "de": "Oberfläche"},
     "plan": {"en": "plan", "de": "Planung"},
     "registration": {"en": "registration", "de": "Registrierung"},

@@ -6,6 +6,7 @@ from server.texts.errors.access import ACCESS
 from server.texts.errors.camera import CAMERA
 from server.texts.errors.cases import CASES
 from server.texts.errors.certificate import CERTIFICATE
+from server.texts.errors.labels import LABELS
 from server.texts.errors.procedure import PROCEDURE
 from server.texts.errors.process import PROCESS
 from server.texts.errors.recordings import RECORDINGS
@@ -35,6 +36,7 @@ _PARTS = (
     PROCESS,
     RECORDINGS,
     CASES,
+    LABELS,
     ACCESS,
     CERTIFICATE,
 )

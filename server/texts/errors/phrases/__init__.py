@@ -11,6 +11,7 @@ from server.texts.errors.phrases.access import ACCESS
 from server.texts.errors.phrases.accuracy import ACCURACY
 from server.texts.errors.phrases.camera import CAMERA
 from server.texts.errors.phrases.cases import CASES
+from server.texts.errors.phrases.labels import LABELS
 from server.texts.errors.phrases.process import PROCESS
 from server.texts.errors.phrases.recordings import RECORDINGS
 from server.texts.errors.phrases.registration import REGISTRATION
@@ -22,6 +23,7 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
     **ACCURACY,
     **CAMERA,
     **CASES,
+    **LABELS,
     **PROCESS,
     **RECORDINGS,
     **REGISTRATION,

@@ -4,6 +4,7 @@ from server.texts.errors.remedies.access import ACCESS
 from server.texts.errors.remedies.camera import CAMERA
 from server.texts.errors.remedies.cases import CASES
 from server.texts.errors.remedies.certificate import CERTIFICATE
+from server.texts.errors.remedies.labels import LABELS
 from server.texts.errors.remedies.procedure import PROCEDURE
 from server.texts.errors.remedies.process import PROCESS
 from server.texts.errors.remedies.recordings import RECORDINGS
@@ -19,6 +20,7 @@ REMEDIES: tuple[Text, ...] = (
     *PROCESS,
     *RECORDINGS,
     *CASES,
+    *LABELS,
     *ACCESS,
     *CERTIFICATE,
 )

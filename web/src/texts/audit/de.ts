@@ -105,6 +105,7 @@ export const auditDe: AuditTexts = {
     "POST /api/registration/needles/proposal": "Hat Vorschläge für die Nadeln angefordert",
     "POST /api/registration/needles/overlay": "Hat die Schicht über das Video gelegt",
     "POST /api/registration/needles/conclusion": "Hat mit drei Nadeln registriert",
+    "POST /api/labels": "Hat eine Segmentierung der Wirbel gesendet",
     "POST /api/surface/from-ct": "Hat die Knochenoberfläche aus dem CT erzeugt",
     "POST /api/surface": "Hat eine Knochenoberfläche gesendet",
     "GET /api/audit/export": "Hat dieses Protokoll exportiert",

@@ -102,6 +102,7 @@ export const auditEn = {
     "POST /api/registration/needles/proposal": "Requested proposals for the needles",
     "POST /api/registration/needles/overlay": "Laid the slice over the video",
     "POST /api/registration/needles/conclusion": "Registered with three needles",
+    "POST /api/labels": "Sent a segmentation of the vertebrae",
     "POST /api/surface/from-ct": "Created the bone surface from the CT",
     "POST /api/surface": "Sent a bone surface",
     "GET /api/audit/export": "Exported this log",

@@ -1,0 +1,1 @@
+"""Reading of vertebra labels that another program segmented: NIfTI or DICOM SEG."""

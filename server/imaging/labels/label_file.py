@@ -1,0 +1,57 @@
+"""The file of labels in a case: a compressed NIfTI of the part of the CT that has labels.
+
+Its numbers are those of TotalSegmentator v2, so that other programs can show it.
+"""
+
+import gzip
+from pathlib import Path
+
+import nibabel as nib
+import numpy as np
+
+from server.imaging.nifti.affine import LPS_FROM_RAS
+from server.imaging.nifti.header import BAD_NIFTI
+from server.imaging.nifti.writer import RAS_FROM_LPS
+from tracker.errors import InvalidInput
+from tracker.plan.labels import LabelVolume
+
+COMPRESSION = 6
+# The part of the largest CT that vertebrae can take; a damaged file must not take more memory.
+MAX_BYTES = 2**29
+
+
+def label_file_bytes(volume: LabelVolume) -> bytes:
+    """Return labels as the bytes of a .nii.gz."""
+    affine = RAS_FROM_LPS @ volume.lps_from_ijk
+    image = nib.Nifti1Image(volume.labels.transpose(2, 1, 0), affine)
+    image.set_sform(affine, code=1)
+    image.set_qform(affine, code=1)
+    image.header.set_xyzt_units("mm")
+    return gzip.compress(image.to_bytes(), compresslevel=COMPRESSION, mtime=0)
+
+
+def load_label_file(path: Path, *, voxel_mm: float) -> LabelVolume:
+    """Return the labels of a file of `label_file_bytes`.
+
+    Raises:
+        InvalidInput: LABELS_DAMAGED.
+    """
+    try:
+        with gzip.open(path) as file:
+            content = file.read(MAX_BYTES + 1)
+        image = nib.Nifti1Image.from_bytes(content[:MAX_BYTES])
+        labels = np.asarray(image.dataobj)
+        affine = LPS_FROM_RAS @ np.asarray(image.header.get_sform(), dtype=np.float64)
+    except (*BAD_NIFTI, OSError):
+        raise _damaged() from None
+    if labels.ndim != 3 or labels.dtype != np.uint8:
+        raise _damaged()
+    return LabelVolume(
+        labels=np.ascontiguousarray(labels.transpose(2, 1, 0)), lps_from_ijk=affine, voxel_mm=voxel_mm
+    )
+
+
+def _damaged() -> InvalidInput:
+    return InvalidInput(
+        "LABELS_DAMAGED", "the file of the labels in the case is damaged", "Send the segmentation again."
+    )

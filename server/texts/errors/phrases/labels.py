@@ -1,0 +1,37 @@
+"""Phrases in errors of labels of vertebrae."""
+
+from collections.abc import Mapping
+
+from server.texts.language import Text
+
+LABELS: Mapping[str, tuple[Text, ...]] = {
+    "segmentation_problem": (
+        {"en": "it is truncated or damaged", "de": "sie ist abgeschnitten oder beschädigt"},
+        {"en": "its {mib} MiB exceed {max_mib} MiB", "de": "ihre {mib} MiB überschreiten {max_mib} MiB"},
+        {"en": "it is compressed as {syntax}", "de": "sie ist komprimiert als {syntax}"},
+        {
+            "en": "its type is {kind}, not BINARY with one bit a pixel",
+            "de": "ihre Art ist {kind}, nicht BINARY mit einem Bit je Pixel",
+        },
+        {
+            "en": "it states {frames} frames, allowed are 1 to {max_frames} with a position each",
+            "de": "sie nennt {frames} Bilder, erlaubt sind 1 bis {max_frames} mit je einer Position",
+        },
+        {"en": "it has no pixels", "de": "sie hat keine Pixel"},
+        {"en": "it lacks a part of its pixels", "de": "ihr fehlt ein Teil ihrer Pixel"},
+        {"en": "a frame has no position", "de": "ein Bild hat keine Position"},
+        {"en": "no frame belongs to a vertebra", "de": "kein Bild gehört zu einem Wirbel"},
+        {
+            "en": "it does not state direction and size of its pixels",
+            "de": "sie nennt Richtung und Größe ihrer Pixel nicht",
+        },
+        {
+            "en": "direction or size of its pixels is not valid",
+            "de": "Richtung oder Größe ihrer Pixel ist ungültig",
+        },
+        {
+            "en": "the distance between its slices is not valid",
+            "de": "der Abstand ihrer Schichten ist ungültig",
+        },
+    ),
+}
