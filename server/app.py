@@ -323,4 +323,4 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(sweep_router(parts.steps.registration.sweep))
         app.include_router(needles_router(parts.steps.registration, parts.steps.ct_provider))
         app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))
-        app.include_router(labels_router(parts.steps.labels, parts.store, parts.store.home))
+        app.include_router(labels_router(parts.steps.labels, parts.steps.plan, parts.store, parts.store.home))

@@ -2,6 +2,7 @@
 
 from typing import Annotated
 
+import numpy as np
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse
@@ -9,11 +10,22 @@ from fastapi.responses import FileResponse
 from server.api.case_messages import heading_message
 from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
-from server.api.label_messages import LabelsMessage, labels_message
+from server.api.label_messages import (
+    ChannelLevelsMessage,
+    LabelOutlinesMessage,
+    LabelsMessage,
+    OutlinesRequest,
+    StartPointsMessage,
+    channel_levels_message,
+    labels_message,
+    outlines_message,
+    start_points_message,
+)
 from server.api.requester import MadeByQuery
 from server.api.revalidation import unless_known
 from server.api.uploads import received
 from server.procedure.labels import LabelStep
+from server.procedure.plan import PlanStep
 from server.store import CaseStore, Home
 
 # As for a CT, of which a segmentation is a part.
@@ -22,9 +34,10 @@ GZIP = "application/gzip"
 LABEL_TYPES: dict[str, dict[str, object]] = {"application/zip": {}, "application/octet-stream": {}}
 
 
-def labels_router(step: LabelStep, store: CaseStore, home: Home) -> APIRouter:
+def labels_router(step: LabelStep, plan: PlanStep, store: CaseStore, home: Home) -> APIRouter:
     """Return the router of `/api/labels`. Its routes are synchronous because they wait for the disk."""
     router = APIRouter(prefix="/api", tags=["labels"])
+    _add_use(router, step, plan)
 
     @router.post(
         "/labels",
@@ -71,3 +84,21 @@ def labels_router(step: LabelStep, store: CaseStore, home: Home) -> APIRouter:
         )
 
     return router
+
+
+def _add_use(router: APIRouter, step: LabelStep, plan: PlanStep) -> None:
+    @router.get("/labels/starts/{level}", responses=rejections(409, 503))
+    def starts(level: str) -> StartPointsMessage:
+        """Return start points for the measurement of both pedicles of a level, from its label."""
+        return start_points_message(level, step.start_points(level))
+
+    @router.get("/labels/channels", responses=rejections(409, 503))
+    def channels() -> ChannelLevelsMessage:
+        """Return in the label of which level each planned channel lies."""
+        return channel_levels_message(plan.repository.channel_levels())
+
+    @router.post("/labels/outlines", responses=rejections(409, 503))
+    def outlines(requested: OutlinesRequest) -> LabelOutlinesMessage:
+        """Return the outlines of the labels in a slice of the CT; the slice is that of a `SliceMessage`."""
+        size = requested.width_px, requested.height_px
+        return outlines_message(step.outlines(np.array(requested.lps_from_px), size))

@@ -14,7 +14,14 @@ from server.procedure.ct import CtProvider
 from server.procedure.open_case import require_open_case
 from server.store import CaseStore, Document, DocumentKind, StoredFile, translate_errors
 from tracker.errors import InvalidInput
-from tracker.plan.labels import LabelVolume
+from tracker.geometry import Array
+from tracker.plan.labels import (
+    LabelOutline,
+    LabelVolume,
+    StartPoint,
+    label_outlines,
+    pedicle_start_points,
+)
 
 # A case has the labels of one segmentation; its document has this name.
 MAIN_LABELS = "main"
@@ -158,6 +165,29 @@ class LabelStep:
         if document is None or not document.files:
             raise labels_not_stored(case.id)
         return document, self._store.file(case.id, document.files[0])
+
+    def start_points(self, level: str) -> tuple[StartPoint, ...]:
+        """Return where the measurement of both pedicles of a level starts.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, LABELS_NOT_STORED.
+            PlanError: LEVEL_WITHOUT_LABEL, LABEL_WITHOUT_PEDICLES.
+        """
+        return pedicle_start_points(self._current().volume, level)
+
+    def outlines(self, lps_from_px: Array, size_wh_px: tuple[int, int]) -> tuple[LabelOutline, ...]:
+        """Return the outlines of the labels in a slice of the CT.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, LABELS_NOT_STORED.
+        """
+        return label_outlines(self._current().volume, lps_from_px, size_wh_px)
+
+    def _current(self) -> CaseLabels:
+        labels = self.provider.current()
+        if labels is None:
+            raise labels_not_stored(require_open_case(self._store).id)
+        return labels
 
 
 def labels_not_stored(case_id: str) -> SetupOrderError:

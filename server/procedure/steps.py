@@ -139,6 +139,7 @@ class Steps:
             store=store,
             jobs=jobs,
             ct_provider=ct_provider,
+            labels=labels.provider,
             config=config.plan,
             bone_wall=drill_references.bone_wall,
         )

@@ -124,6 +124,8 @@ GET     /api/registration/sweep
 GET     /api/registration/needles/overlay.jpg
 GET     /api/labels
 GET     /api/labels.nii.gz
+GET     /api/labels/channels
+GET     /api/labels/starts/{level}
 GET     /api/surface
 GET     /api/surface.ply
 """
@@ -235,6 +237,7 @@ POST    /api/registration/needles/proposal
 POST    /api/registration/needles/overlay
 POST    /api/registration/needles/conclusion
 POST    /api/labels
+POST    /api/labels/outlines
 POST    /api/surface/from-ct
 POST    /api/surface
 """

@@ -62,3 +62,73 @@ def test_wrong_labels_leave_nothing_behind(server: Server) -> None:
     failed = send_labels(server, b"hello")
     assert failed["problem"]["code"] == "LABELS_MISSING"
     assert server.ask("GET", "/api/labels", 409)["code"] == "LABELS_NOT_STORED"
+
+
+def with_vertebra(server: Server, name: str, label: str) -> str:
+    """A case with a CT, the label of its vertebra, and a vertebra in the plan; its id."""
+    case = opened(server)
+    sent(server, nifti(scanned()))
+    assert send_labels(server, label_nifti(labelled(label)))["state"] == "done"
+    server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": name})
+    return case
+
+
+def measured(server: Server, name: str, side: str, point: list[float]) -> Any:  # noqa: ANN401  JSON
+    asked = {**BY, "seed_lps_mm": point}
+    return server.done(server.ask("POST", f"/api/plan/vertebrae/{name}/pedicles/{side}", 202, json=asked))
+
+
+def test_both_pedicles_are_measured_from_the_label(server: Server) -> None:
+    with_vertebra(server, "L3", "L3")
+    starts = server.ask("GET", "/api/labels/starts/L3", 200)["starts"]
+    assert [one["side"] for one in starts] == ["left", "right"]
+    for start in starts:
+        job = measured(server, "L3", start["side"], start["point_lps_mm"])
+        assert job["state"] == "done", job["problem"]
+        truth = phantom().truth(start["side"])
+        assert abs(job["result"]["pedicle"]["width_mm"] - truth.width_mm) < 0.5
+        server.ask("PUT", f"/api/plan/vertebrae/L3/channels/{start['side']}", 200, json=BY)
+    compared = server.ask("GET", "/api/labels/channels", 200)["channels"]
+    assert [(one["vertebra"], one["side"], one["level"], one["problem"]) for one in compared] == [
+        ("L3", "left", "L3", None),
+        ("L3", "right", "L3", None),
+    ]
+    assert server.ask("GET", "/api/labels/starts/L4", 409)["code"] == "LEVEL_WITHOUT_LABEL"
+    place = server.ask("GET", "/api/ct/slices/axial?at_mm=0", 200)
+    asked = {key: place[key] for key in ("lps_from_px", "width_px", "height_px")}
+    (one,) = server.ask("POST", "/api/labels/outlines", 200, json=asked)["outlines"]
+    assert one["level"] == "L3"
+    assert len(one["rings_lps_mm"]) >= 2, "the bone, and its canal as a hole"
+
+
+def test_a_plan_for_another_level_than_its_label_is_refused_and_stated(server: Server) -> None:
+    case = with_vertebra(server, "L3", "L4")
+    hand = {"entry_lps_mm": [15, 14, 2], "target_lps_mm": [8, -30, 3], "diameter_mm": 6.0}
+    lay = "/api/plan/vertebrae/L3/channels/left"
+    refused = server.ask("PUT", lay, 409, json={**BY, "by_hand": hand})
+    assert refused["code"] == "LEVEL_DOUBTFUL"
+    assert "L4" in refused["message"]
+    assert server.ask("GET", "/api/plan", 200)["plan"]["vertebrae"][0]["channels"] == []
+
+    # Labels that come after the plan do not change it; they are stated, and stop navigation.
+    labels = server.ask("GET", "/api/labels", 200)["heading"]["id"]
+    document = f"/api/cases/{case}/documents/{labels}/withdrawal"
+    server.ask("POST", document, 200, json={"by": "test", "reason": "wrong"})
+    server.ask("PUT", lay, 200, json={**BY, "by_hand": hand})
+    server.ask("POST", "/api/plan/active-channel", 200, json={**BY, "vertebra": "L3", "side": "left"})
+
+    def plan_step() -> Any:  # noqa: ANN401  JSON
+        return next(one for one in server.ask("GET", "/api/procedure", 200)["steps"] if one["step"] == "plan")
+
+    assert plan_step()["state"] == "done"
+    assert send_labels(server, label_nifti(labelled("L4")))["state"] == "done"
+    (one,) = server.ask("GET", "/api/labels/channels", 200)["channels"]
+    assert one["problem"]["code"] == "LEVEL_DOUBTFUL"
+    assert plan_step()["state"] == "out_of_date"
+    assert "L4" in plan_step()["reason"]
+    again = {**BY, "vertebra": "L3", "side": "left"}
+    assert server.ask("POST", "/api/plan/active-channel", 409, json=again)["code"] == "LEVEL_DOUBTFUL"
+    # It can still be taken out, and the vertebra planned under its right name.
+    server.ask("DELETE", f"{lay}?made_by=test", 200)
+    server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L4"})
+    server.ask("PUT", "/api/plan/vertebrae/L4/channels/left", 200, json={**BY, "by_hand": hand})

@@ -8,6 +8,7 @@ import structlog
 
 from server.errors import SetupOrderError
 from server.procedure.ct import CtProvider, MappedCt
+from server.procedure.labels import LabelProvider
 from server.procedure.open_case import require_open_case
 from server.procedure.plan.active_channel import (
     ACTIVE_CHANNEL,
@@ -21,7 +22,8 @@ from tracker.errors import NavigationError, PlanError
 from tracker.plan import Channel, PlanDocument, plan_from_mapping, plan_to_mapping
 from tracker.plan.document import plain
 from tracker.plan.document.changes import channel_of, vertebra_named
-from tracker.plan.pedicle import Side
+from tracker.plan.labels import check_channel, check_measure
+from tracker.plan.pedicle import PedicleMeasure, Side
 
 # A case has one plan, of all vertebrae; its document has this name.
 MAIN_PLAN = "main"
@@ -45,17 +47,36 @@ class StoredPlan:
     active: ActiveChannel | None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChannelLevel:
+    """In the label of which level a planned channel lies.
+
+    Attributes:
+        vertebra: name of the vertebra in the plan.
+        side: of the patient.
+        level: the level, which is that of the vertebra; empty if nothing can be compared.
+        problem: LEVEL_DOUBTFUL, if it lies in the label of another level; else None.
+    """
+
+    vertebra: str
+    side: Side
+    level: str
+    problem: PlanError | None
+
+
 class PlanRepository:
     """Reads and stores the plan of the open case. Thread-safe.
 
     Args:
         store: the case store.
         ct_provider: the CT that the plan depends on.
+        labels: the labels that channels are compared with.
     """
 
-    def __init__(self, store: CaseStore, ct_provider: CtProvider) -> None:
+    def __init__(self, store: CaseStore, ct_provider: CtProvider, labels: LabelProvider) -> None:
         self._store = store
         self._ct_provider = ct_provider
+        self._labels = labels
 
     def latest(self) -> StoredPlan:
         """Return the newest plan of the open case.
@@ -141,8 +162,10 @@ class PlanRepository:
 
         Raises:
             StoreConflict: VERSION_CONFLICT.
+            PlanError: LEVEL_DOUBTFUL, a new channel lies in the label of another level.
         """
         case_id = ct.document.case_id
+        self._check_new_channels(case_id, plan)
         before = self._active(case_id)
         stays = before if before is not None and _has(plan, before) else None
         document = self._store.put(
@@ -164,10 +187,13 @@ class PlanRepository:
         Raises:
             SetupOrderError: NO_CASE_OPEN, PLAN_MISSING.
             OutOfDateError: DOCUMENT_OUT_OF_DATE.
-            PlanError: VERTEBRA_UNKNOWN, CHANNEL_MISSING.
+            PlanError: VERTEBRA_UNKNOWN, CHANNEL_MISSING; LEVEL_DOUBTFUL, it lies in another level.
         """
         stored = self.latest_valid()
         channel = channel_of(vertebra_named(stored.plan, vertebra), side).channel
+        labels = self._labels.current()
+        if labels is not None:
+            check_channel(labels.volume, vertebra, channel)
         self._store.put(
             stored.document.case_id,
             DocumentKind.PLAN,
@@ -189,6 +215,48 @@ class PlanRepository:
         if document is not None:
             self._store.withdraw(document, by=made_by, reason=WITHDRAWALS["CHANNEL_UNSET"]["en"])
         return self.latest()
+
+    def check_measure(self, vertebra: str, measure: PedicleMeasure) -> None:
+        """Reject a measured pedicle that contradicts the labels, if the case has any.
+
+        Raises:
+            PlanError: LEVEL_DOUBTFUL, PEDICLE_DOUBTFUL.
+        """
+        labels = self._labels.current()
+        if labels is not None:
+            check_measure(labels.volume, vertebra, measure)
+
+    def channel_levels(self) -> tuple[ChannelLevel, ...]:
+        """Return for each channel of the newest plan in the label of which level it lies.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, PLAN_MISSING.
+        """
+        plan, labels = self.latest().plan, self._labels.current()
+        found = []
+        for vertebra in plan.vertebrae:
+            for planned in vertebra.channels:
+                level, problem = "", None
+                try:
+                    if labels is not None:
+                        level = check_channel(labels.volume, vertebra.name, planned.channel)
+                except PlanError as error:
+                    problem = error
+                found.append(
+                    ChannelLevel(vertebra=vertebra.name, side=planned.side, level=level, problem=problem)
+                )
+        return tuple(found)
+
+    def _check_new_channels(self, case_id: str, plan: PlanDocument) -> None:
+        """Reject channels in the label of another level; others may be corrected one after the other."""
+        labels = self._labels.current()
+        if labels is None:
+            return
+        before = self._store.latest(case_id, DocumentKind.PLAN, MAIN_PLAN)
+        known = [] if before is None else _channels(plan_from_mapping(before.content))
+        for name, channel in _channels(plan):
+            if not any(name == one and is_same_channel(channel, other) for one, other in known):
+                check_channel(labels.volume, name, channel)
 
     def _active(self, case_id: str) -> ActiveChannel | None:
         document = active_channel_document(self._store, case_id)
@@ -219,6 +287,11 @@ def _has(plan: PlanDocument, active: ActiveChannel) -> bool:
     except PlanError:
         return False
     return is_same_channel(channel, active.channel)
+
+
+def _channels(plan: PlanDocument) -> list[tuple[str, Channel]]:
+    """Return all channels with the names of their vertebrae."""
+    return [(one.name, planned.channel) for one in plan.vertebrae for planned in one.channels]
 
 
 def is_same_channel(one: Channel, other: Channel) -> bool:

@@ -12,6 +12,7 @@ from server.planning.volume import measure_in_ct
 from server.procedure.ct import CtProvider
 from server.procedure.plan.active_channel import active_channel_document, active_channel_from_document
 from server.procedure.plan.clearance import ActiveBone, PlannedClearance, planned_clearances
+from server.procedure.labels import LabelProvider
 from server.procedure.plan.repository import PlanRepository, StoredPlan
 from server.store import CaseStore, Document
 from tracker.errors import PlanError
@@ -64,6 +65,7 @@ class PlanStep:
         store: Where the plan is stored.
         jobs: Runs the measurement of pedicles.
         ct_provider: The CT.
+        labels: Labels of vertebrae, which pedicles and channels are compared with.
         config: Screw catalogue and margins.
         bone_wall: Returns the bone around the active channel of this document; None while it is unknown.
     """
@@ -74,10 +76,11 @@ class PlanStep:
         store: CaseStore,
         jobs: Jobs,
         ct_provider: CtProvider,
+        labels: LabelProvider,
         config: PlanConfig,
         bone_wall: Callable[[Document], WallDistanceField | None],
     ) -> None:
-        self.repository = PlanRepository(store, ct_provider)
+        self.repository = PlanRepository(store, ct_provider, labels)
         self._store = store
         self._bone_wall = bone_wall
         self._jobs = jobs
@@ -135,6 +138,7 @@ class PlanStep:
                     now, name, measure, volume=volume, front_margin_mm=self._front_margin_mm
                 )
 
+            self.repository.check_measure(name, measure)
             stored = self._change(by, put)
             return {"version": stored.document.version, "vertebra": name, "side": side, "pedicle": values}
 

@@ -15,6 +15,7 @@ from server.procedure.confirmation import (
     confirmation_prompt,
     confirmed_from_s,
 )
+from server.procedure.labels import LabelProvider
 from server.procedure.plan import active_channel_document, active_channel_from_document
 from server.procedure.plan.repository import MAIN_PLAN
 from server.procedure.registration_record import (
@@ -33,6 +34,7 @@ from server.texts import METHODS, Reason, reason, reason_of_error, withdrawal_te
 from tracker.errors import NavigationError
 from tracker.plan import plan_from_mapping
 from tracker.plan.document.changes import vertebra_named
+from tracker.plan.labels import check_channel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,6 +81,7 @@ class Procedure:
         clock: Callable[[], datetime] = utc_now,
     ) -> None:
         self._store = store
+        self._labels = LabelProvider(store)
         self._defaults = defaults
         self._gate = gate
         self.run = run
@@ -223,10 +226,18 @@ class Procedure:
             )
         try:
             planned = vertebra_named(plan_from_mapping(found.content), vertebra)
+            self._check_level(case_id)
         except NavigationError as error:
             return _unusable(found, error)
         selected = reason("CHANNEL_SELECTED", {"vertebra": vertebra})
         return _done(found, selected, {"landmarks": len(planned.landmarks)})
+
+    def _check_level(self, case_id: str) -> None:
+        """Raise PlanError LEVEL_DOUBTFUL if the active channel lies in the label of another level."""
+        active, labels = active_channel_document(self._store, case_id), self._labels.current()
+        if active is not None and labels is not None:
+            chosen = active_channel_from_document(active)
+            check_channel(labels.volume, chosen.vertebra, chosen.channel)
 
     def _registration(self, case_id: str, vertebra: str | None) -> Finding:
         if vertebra is None:

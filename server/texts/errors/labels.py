@@ -115,7 +115,33 @@ LABELS: Mapping[str, tuple[Text, ...]] = {
             "daneben, {off_mm:.2f} mm innerhalb einer Schicht",
         },
     ),
+    "LEVEL_WITHOUT_LABEL": (
+        {
+            "en": "the segmentation has no label {level}, only {listed}",
+            "de": "die Segmentierung hat kein Label {level}, nur {listed}",
+        },
+    ),
+    "LABEL_WITHOUT_PEDICLES": (
+        {
+            "en": "the pedicles cannot be found in the label {level}: {label_problem}",
+            "de": "die Pedikel sind im Label {level} nicht zu finden: {label_problem}",
+        },
+    ),
+    "PEDICLE_DOUBTFUL": (
+        {
+            "en": "{pedicle_part} lies {off_mm:.1f} mm {label_side} of the surface of the label {level}, "
+            "allowed {limit_mm:.1f} mm",
+            "de": "{pedicle_part} liegt {off_mm:.1f} mm {label_side} der Oberfläche des Labels {level}, "
+            "erlaubt {limit_mm:.1f} mm",
+        },
+    ),
     "LEVEL_DOUBTFUL": (
+        {
+            "en": "the pedicle is measured for {planned}, but its isthmus lies in the label {most}, {steps} "
+            "levels away",
+            "de": "der Pedikel ist für {planned} gemessen, aber seine Engstelle liegt im Label {most}, "
+            "{steps} Höhen entfernt",
+        },
         {
             "en": "the labels are out of order: from the head down they are {named} by name, but {placed} by "
             "position",

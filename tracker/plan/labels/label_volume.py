@@ -68,13 +68,16 @@ class LabelVolume:
 
     def level_at(self, points_lps_mm: npt.ArrayLike) -> list[str]:
         """Return the level at each of the points (n, 3), nearest voxel; empty where there is no label."""
+        return [LEVEL_OF_CLASS.get(int(number), "") for number in self.numbers_at(points_lps_mm)]
+
+    def numbers_at(self, points_lps_mm: npt.ArrayLike) -> Labels:
+        """Return the class number at each of the points (n, 3), nearest voxel; 0 where there is no label."""
         offset = np.asarray(points_lps_mm, dtype=np.float64).reshape(-1, 3) - self.lps_from_ijk[:3, 3]
         index = np.rint(offset @ np.linalg.inv(self.lps_from_ijk[:3, :3]).T).astype(np.int64)
         size = np.array(self.labels.shape[::-1])
         is_inside = ((index >= 0) & (index < size)).all(axis=1)
         i, j, k = np.clip(index, 0, size - 1).T
-        numbers = np.where(is_inside, self.labels[k, j, i], 0)
-        return [LEVEL_OF_CLASS.get(int(number), "") for number in numbers]
+        return np.where(is_inside, self.labels[k, j, i], 0).astype(np.uint8)
 
     def cropped_to(self, level: str, margin_mm: float = 0.0) -> "LabelVolume":
         """Return the part around one label, in which only that label remains.

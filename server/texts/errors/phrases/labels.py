@@ -5,6 +5,26 @@ from collections.abc import Mapping
 from server.texts.language import Text
 
 LABELS: Mapping[str, tuple[Text, ...]] = {
+    "pedicle_part": (
+        {"en": "the entry", "de": "der Eintritt"},
+        {"en": "the front wall", "de": "die vordere Wand"},
+        {"en": "the wall at the isthmus", "de": "die Wand an der Engstelle"},
+    ),
+    "label_side": ({"en": "outside", "de": "außerhalb"}, {"en": "inside", "de": "innerhalb"}),
+    "label_problem": (
+        {
+            "en": "no canal lies between a body and an arch",
+            "de": "zwischen Wirbelkörper und Bogen liegt kein Kanal",
+        },
+        {
+            "en": "nothing connects body and arch on the {side} side",
+            "de": "auf der Seite {side} verbindet nichts Wirbelkörper und Bogen",
+        },
+        {
+            "en": "it does not reach from a body backwards",
+            "de": "es reicht nicht von einem Wirbelkörper nach hinten",
+        },
+    ),
     "segmentation_problem": (
         {"en": "it is truncated or damaged", "de": "sie ist abgeschnitten oder beschädigt"},
         {"en": "its {mib} MiB exceed {max_mib} MiB", "de": "ihre {mib} MiB überschreiten {max_mib} MiB"},

@@ -3,6 +3,11 @@
 from server.texts.language import Text
 
 LABELS: tuple[Text, ...] = (
+    {"en": "Click into the pedicle on the CT.", "de": "Im CT in den Pedikel klicken."},
+    {
+        "en": "Look at the label and the pedicle on the CT; measure again, or give its numbers by hand.",
+        "de": "Label und Pedikel im CT ansehen; neu messen, oder seine Zahlen von Hand eingeben.",
+    },
     {"en": "Send the segmentation again.", "de": "Die Segmentierung erneut senden."},
     {"en": "Send a segmentation of this CT.", "de": "Eine Segmentierung dieses CTs senden."},
     {

@@ -1,0 +1,64 @@
+"""Outlines of labels in a slice of the CT, to draw them over it."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.plan.labels.label_volume import LabelVolume
+from tracker.plan.labels.levels import CLASS_OF_LEVEL
+
+# Smaller parts of a section are not drawn.
+MIN_PIXELS = 12
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LabelOutline:
+    """Section of one label in a slice.
+
+    Attributes:
+        level: `L3`.
+        rings_lps_mm: closed polygons (n, 3), through the centres of the outermost pixels; holes included.
+        name_lps_mm: (3,), the pixel that is deepest inside, where the name fits.
+    """
+
+    level: str
+    rings_lps_mm: tuple[Array, ...]
+    name_lps_mm: Array
+
+
+def label_outlines(
+    labels: LabelVolume, lps_from_px: Array, size_wh_px: tuple[int, int]
+) -> tuple[LabelOutline, ...]:
+    """Return the outlines of all labels in a slice, from the head down.
+
+    Args:
+        labels: labels in the CT.
+        lps_from_px: (3, 3), takes (u, v, 1) to LPS in mm, as in `Slice`.
+        size_wh_px: number of columns and rows of the slice.
+    """
+    width, height = size_wh_px
+    v, u = np.mgrid[:height, :width]
+    points = np.stack([u, v, np.ones_like(u)], axis=-1).reshape(-1, 3) @ lps_from_px.T
+    numbers = labels.numbers_at(points).reshape(height, width)
+    found = []
+    for level, number in CLASS_OF_LEVEL.items():
+        mask = (numbers == number).astype(np.uint8)
+        if np.count_nonzero(mask) < MIN_PIXELS:
+            continue
+        rings, _ = cv2.findContours(mask, cv2.RETR_CCOMP, cv2.CHAIN_APPROX_SIMPLE)
+        depth = cv2.distanceTransform(np.pad(mask, 1), cv2.DIST_L2, 3)[1:-1, 1:-1]
+        row, column = np.unravel_index(int(depth.argmax()), depth.shape)
+        found.append(
+            LabelOutline(
+                level=level,
+                rings_lps_mm=tuple(
+                    np.column_stack([ring.reshape(-1, 2), np.ones(len(ring))]) @ lps_from_px.T
+                    for ring in rings
+                    if len(ring) > 2
+                ),
+                name_lps_mm=lps_from_px @ np.array([float(column), float(row), 1.0]),
+            )
+        )
+    return tuple(found)
