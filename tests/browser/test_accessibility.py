@@ -217,11 +217,11 @@ def test_the_alarms_cover_nothing_of_a_page_that_is_scrolled(
     expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
     page.mouse.move(LYING[0] / 2, LYING[1] - 50)
     page.mouse.wheel(0, 5000)
-    page.wait_for_function("document.querySelector('.operator-body').scrollTop > 0")
+    page.wait_for_function("() => document.querySelector('.step-content').scrollTop > 0")
     edges = "e => e.getBoundingClientRect()"
     assert (
         page.locator(".operator-band").evaluate(edges)["bottom"]
-        <= page.locator(".operator-body").evaluate(edges)["top"]
+        <= page.locator(".step-content").evaluate(edges)["top"]
     )
 
 
