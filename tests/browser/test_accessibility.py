@@ -135,16 +135,15 @@ def test_a_page_that_lacks_something_leads_to_where_it_comes_from(
         "language": "en",
     }
     context.route("**/api/tools", lambda route: route.fulfill(status=409, json=rejection))
-    context.add_init_script(path=AXE)
     page = context.new_page()
     step = page.locator("#step")
     for name in ("plan", "register", "recordings", "report", "camera"):
         page.goto(f"http://127.0.0.1:{shared_theatre.port}/operator/{name}")
         expect(step.get_by_test_id("go-case")).to_be_visible(timeout=PATIENCE_MS)
-    assert faults(page) == []
+    assert violations(page) == []
     page.get_by_test_id("step-tool").click()
     expect(step.get_by_role("alert")).to_contain_text("Calibrate the camera first.", timeout=PATIENCE_MS)
-    assert faults(page) == []
+    assert violations(page) == []
     step.get_by_test_id("go-camera").click()
     expect(page).to_have_url(re.compile("/operator/camera$"))
     context.close()
@@ -256,7 +255,6 @@ def test_without_a_session_the_page_says_what_coaxial_is_and_how_to_sign_in(
     # This server requires no sign-in: its answer is that of one that does.
     missing = {"code": "SESSION_NEEDED", "message": "", "remedy": "", "context": {}, "language": "en"}
     context = browser.new_context(locale=locale, color_scheme=theme)
-    context.add_init_script(path=AXE)
     context.route("**/api/session", lambda route: route.fulfill(status=401, json=missing))
     page = context.new_page()
     page.goto(f"http://127.0.0.1:{shared_theatre.port}/operator")
@@ -268,7 +266,7 @@ def test_without_a_session_the_page_says_what_coaxial_is_and_how_to_sign_in(
     assert page.request.get(f"http://127.0.0.1:{shared_theatre.port}{guide}").status in (200, NOT_BUILT)
     for width, height in (THEATRE, (1180, 820), PHONE):
         page.set_viewport_size({"width": width, "height": height})
-        assert faults(page) == []
+        assert violations(page) == []
         assert page.evaluate("document.documentElement.scrollWidth") <= width
         if width > UPRIGHT[0]:
             expect(page.get_by_test_id("enter")).to_be_in_viewport()

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, Page, ViewportSize, expect
 from server.config import Config
 from tests.browser.by_touch.people import invite, left, let_in, printed_link
 from tests.browser.by_touch.planning import (
-    dragged_on_each_plane,
+    dragged_on_several_planes,
     measured_by_hand,
     moved_and_undone,
     plan_both_pedicles,
@@ -95,7 +95,7 @@ def test_a_procedure_by_touch_watched_and_supervised(
     plan_both_pedicles(tablet, truth)
     with tablet.uncounted():
         moved_and_undone(tablet)
-        dragged_on_each_plane(tablet)
+        dragged_on_several_planes(tablet)
         with_lines(tablet)
         measured_by_hand(tablet)
     with_landmarks(tablet, truth)

@@ -10,9 +10,9 @@ from server.config import PlanConfig
 from server.jobs import Job, Jobs
 from server.planning.volume import measure_in_ct
 from server.procedure.ct import CtProvider
+from server.procedure.labels import LabelProvider
 from server.procedure.plan.active_channel import active_channel_document, active_channel_from_document
 from server.procedure.plan.clearance import ActiveBone, PlannedClearance, planned_clearances
-from server.procedure.labels import LabelProvider
 from server.procedure.plan.repository import PlanRepository, StoredPlan
 from server.store import CaseStore, Document
 from tracker.errors import PlanError
