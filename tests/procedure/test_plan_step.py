@@ -10,6 +10,7 @@ from tests.procedure.conftest import Server
 from tests.procedure.test_ct_step import BY, opened, picture, sent
 from tests.procedure.uploads import dicom_zip, nifti, phantom, scanned
 from tracker.errors import PlanError
+from tracker.navigation.clearance import WallSource
 from tracker.rehearsal.ct import PedicleTruth
 
 VOXEL_MM = 1.0
@@ -70,8 +71,9 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     assert screw["bone"]["mean_hu"] > 100
 
     # Its clearance by depth is that of the figures, with the limit of the settings.
+    without = server.ask("DELETE", "/api/plan/vertebrae/L3/channels/right/screw", 200, params=BY)
     clearances = server.ask("GET", "/api/plan/clearances", 200)
-    assert (clearances["plan_id"], clearances["margin_mm"]) == (with_screw["heading"]["id"], 0.5)
+    assert (clearances["plan_id"], clearances["margin_mm"]) == (without["heading"]["id"], 0.5)
     by_side = {one["side"]: one["clearance"] for one in clearances["channels"]}
     assert by_side["right"] == {"kind": "absent", "reason": "NO_SCREW"}
     walls = ("medial_mm", "lateral_mm", "superior_mm", "inferior_mm")
@@ -111,6 +113,16 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     assert slimmer["screws"][0]["tolerance"] != screw["tolerance"]
     assert after["active_channel"] is None
     assert server.adopted[-1].channel is None
+
+    # Navigation compares with the corrected pedicle.
+    server.ask("POST", "/api/plan/active-channel", 200, json=now)
+    navigated = server.adopted[-1]
+    assert navigated.channel is not None
+    assert navigated.drill_reference is not None
+    wall = navigated.drill_reference.wall
+    assert wall.against is WallSource.PEDICLE
+    isthmus = record["measured"]["isthmus_lps_mm"]
+    assert wall.distances_mm(isthmus)[0][0] == pytest.approx(-7.0 / 2, abs=0.3)
 
 
 def test_a_plan_on_nifti_in_another_order_is_the_same(server: Server) -> None:
