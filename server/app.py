@@ -169,7 +169,7 @@ def create_app(parts: AppParts) -> FastAPI:
     _add_streams(app, parts, viewers, video, view)
     app.include_router(live_router(hub))
     _add_people(app, parts)
-    _add_supervision(app, parts, viewers)
+    room_hub = _add_supervision(app, parts, viewers)
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(gates_router(config))
     app.include_router(
@@ -191,6 +191,7 @@ def create_app(parts: AppParts) -> FastAPI:
         stale_after_ms=limits.scene_stale_after_ms,
         admit=_admitted(viewers),
         cut=abort_connection,
+        marks=room_hub.marks_on_cuts,
     )
     if parts.store is not None:
         SceneBone(parts.store, app.state.scene.show_surface, own=parts.surface)
@@ -245,8 +246,8 @@ def _add_people(app: FastAPI, parts: AppParts) -> None:
     app.include_router(audit_router(None if parts.people is None else parts.people.audit))
 
 
-def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
-    """Add the routes of alarms, supervision and co-signatures."""
+def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> RoomHub:
+    """Add the routes of alarms, supervision and co-signatures; return the room."""
     service = parts.alarms or AlarmService(parts.config)
     storage = None if parts.store is None else HoldRequestFile(parts.store.home.folder)
     holds, signatures = HoldRequests(service, storage=storage), None
@@ -274,6 +275,7 @@ def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
             app.include_router(review_scenes_router(scenes))
             app.include_router(drillings_router(review))
             app.include_router(recording_exports_router(exports))
+    return room_hub
 
 
 def _admitted(viewers: Viewers) -> Admit:

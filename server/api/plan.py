@@ -12,6 +12,7 @@ from server.api.plan_messages import (
     ActiveChannelRequest,
     CatalogueMessage,
     ChannelRequest,
+    ClearancesMessage,
     CorrectionsRequest,
     ExpectedVersion,
     LandmarksRequest,
@@ -23,6 +24,7 @@ from server.api.plan_messages import (
     SeedRequest,
     SliceProposalMessage,
     VertebraRequest,
+    clearances_message,
     plan_message,
     proposal_message,
 )
@@ -79,6 +81,11 @@ def _add_whole(router: APIRouter, step: PlanStep, min_landmarks: int) -> None:
             lengths_mm=list(step.catalogue.lengths_mm),
             min_landmarks=min_landmarks,
         )
+
+    @router.get("/clearances", responses=rejections(409, 503))
+    def clearances() -> ClearancesMessage:
+        """Return the clearance of each planned screw to the wall, by depth."""
+        return clearances_message(*step.clearances(), margin_mm=step.wall_margin_mm)
 
 
 def _add_files(router: APIRouter, step: PlanStep, opened: CtProvider, home: Home) -> None:
@@ -156,7 +163,10 @@ def _add_pedicles(router: APIRouter, step: PlanStep) -> None:
 def _add_channels(router: APIRouter, step: PlanStep) -> None:
     @router.put("/vertebrae/{name}/channels/{side}", responses=CHANGE_ERRORS)
     def lay(name: str, side: Side, requested: ChannelRequest) -> PlanMessage:
-        """Place the channel along the measured pedicle with its minimum width, or set it by hand."""
+        """Place the channel along the measured pedicle with its minimum width, or set it by hand.
+
+        Along the pedicle it gets the proposed screw, if one fits.
+        """
         hand = requested.by_hand
         ends = None if hand is None else (hand.entry_lps_mm, hand.target_lps_mm, hand.diameter_mm)
         return plan_message(step.lay_channel(name, side, ends, requested.author))

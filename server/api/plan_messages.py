@@ -1,7 +1,7 @@
 """Messages about the plan."""
 
-from collections.abc import Mapping
-from typing import Annotated, TypeAlias
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
 from fastapi import Query
@@ -10,8 +10,9 @@ from pydantic import Field, StringConstraints
 from server.api.case_messages import HeadingMessage, heading_message
 from server.api.ct_messages import PointLps
 from server.api.requester import MadeBy
-from server.procedure.plan import Author, Proposal, StoredPlan
+from server.procedure.plan import Author, NoClearance, PlannedClearance, Proposal, StoredPlan
 from server.stream.messages import Message
+from tracker.navigation.clearance import WallSource
 from tracker.plan import Landmark, PlanDocument, plan_to_mapping
 from tracker.plan.document import plain
 from tracker.plan.pedicle import Side
@@ -166,6 +167,71 @@ class CatalogueMessage(Message):
     lengths_mm: list[float]
     min_landmarks: int
     """Minimum number for a registration by landmarks."""
+
+
+class ClearanceAlongMessage(Message):
+    """Clearance by depth, where the wall is known."""
+
+    kind: Literal["known"] = "known"
+    against: WallSource
+    depth_mm: list[float]
+    """Along the screw from its entry, ascending."""
+    clearance_mm: list[float]
+    """From the screw's surface to the wall, the minimum around it; negative through the wall."""
+    min_mm: float
+    min_depth_mm: float
+    """Depth of the minimum."""
+
+
+class NoClearanceMessage(Message):
+    """Why no clearance is known."""
+
+    kind: Literal["absent"] = "absent"
+    reason: NoClearance
+
+
+class ChannelClearanceMessage(Message):
+    """Clearance of the screw in one channel."""
+
+    vertebra: str
+    side: Side
+    clearance: Annotated[ClearanceAlongMessage | NoClearanceMessage, Field(discriminator="kind")]
+
+
+class ClearancesMessage(Message):
+    """Clearance of each planned screw."""
+
+    plan_id: str
+    """Id of the plan's document."""
+    margin_mm: float
+    """Bone that a proposed screw leaves to each wall (plan.wall_margin_mm); less is to be marked."""
+    channels: list[ChannelClearanceMessage]
+
+
+def clearances_message(
+    stored: StoredPlan, clearances: Sequence[PlannedClearance], *, margin_mm: float
+) -> ClearancesMessage:
+    """Return the message of the clearances of a plan."""
+    return ClearancesMessage(
+        plan_id=stored.document.id,
+        margin_mm=margin_mm,
+        channels=[
+            ChannelClearanceMessage(vertebra=one.vertebra, side=one.side, clearance=_clearance(one))
+            for one in clearances
+        ],
+    )
+
+
+def _clearance(one: PlannedClearance) -> ClearanceAlongMessage | NoClearanceMessage:
+    if isinstance(one.along, NoClearance):
+        return NoClearanceMessage(reason=one.along)
+    return ClearanceAlongMessage(
+        against=one.against,
+        depth_mm=one.along.depth_mm.round(3).tolist(),
+        clearance_mm=one.along.clearance_mm.round(3).tolist(),
+        min_mm=one.along.min_mm,
+        min_depth_mm=one.along.min_depth_mm,
+    )
 
 
 def plan_message(stored: StoredPlan) -> PlanMessage:

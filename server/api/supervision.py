@@ -24,8 +24,8 @@ STORE_ERRORS = rejections(404, 409, 422, 503, 507)
 ROOM_DESCRIPTION = """
 `WS /ws/room?view=theatre|operator|supervisor`: the client sends `{"next": true}` and receives one
 `RoomMessage` as JSON text after each change and at least once a second: people present, pointers and drawings
-on the image, hold requests, and co-signatures. Unchanged parts are not repeated. Supervisors and the operator
-point and draw over the same socket.
+on the image and on cuts of the CT, hold requests, and co-signatures. Unchanged parts are not repeated.
+Supervisors and the operator point and draw over the same socket.
 """
 
 

@@ -1,5 +1,6 @@
 """Messages of the room and of signatures, and commands of a client in the room."""
 
+from collections.abc import Sequence
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -9,18 +10,26 @@ from server.procedure.state.cosignatures import CosignTarget
 from server.security import Role
 from server.stream.message import Message
 from server.supervision.hold_storage import HoldRequest
-from server.supervision.marks import Drawing, Pointer, Shape
+from server.supervision.marks import CutPlane, Drawing, Pointer, Shape, Vector
 from server.supervision.participants import ConnectionState, Participant, RoomSession, View
 from server.supervision.room_updates import DrawingExtension, RoomUpdate
 from server.supervision.signatures import Requirement, Signable
 from server.texts import requested_language
 
-Coordinate = Annotated[float, Field(ge=-1.0, le=8192.0, allow_inf_nan=False)]
-PixelMessage = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
+Coordinate = Annotated[float, Field(ge=-200.0, le=8192.0, allow_inf_nan=False)]
+MarkPointMessage = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
+# A scanner's origin may be far from the patient.
+PatientCoordinate = Annotated[float, Field(ge=-1e4, le=1e4, allow_inf_nan=False)]
+Position = Annotated[list[PatientCoordinate], Field(min_length=3, max_length=3)]
+Direction = Annotated[
+    list[Annotated[float, Field(ge=-1.0, le=1.0, allow_inf_nan=False)]], Field(min_length=3, max_length=3)
+]
+# The page rounds directions to 5 digits.
+MAX_DIRECTION_ERROR = 1e-3
 Seconds = Annotated[float, Field(ge=0.0, le=1e10, allow_inf_nan=False)]
 Number = Annotated[int, Field(ge=0, le=2**53)]
 MAX_POINTS_A_MESSAGE = 60
-Points = Annotated[list[PixelMessage], Field(min_length=1, max_length=MAX_POINTS_A_MESSAGE)]
+Points = Annotated[list[MarkPointMessage], Field(min_length=1, max_length=MAX_POINTS_A_MESSAGE)]
 
 
 class PersonMessage(Message):
@@ -36,6 +45,26 @@ class PersonMessage(Message):
     is_you: bool
 
 
+class CutPlaneMessage(Message):
+    """The plane of a cut of the CT."""
+
+    ct_id: Annotated[str, Field(min_length=1, max_length=64)]
+    """Of the CT in whose frame the plane is stated, as in the channel of the live message."""
+    origin_in_vertebra_mm: Position
+    """The plane's point (0, 0)."""
+    right_in_vertebra: Direction
+    down_in_vertebra: Direction
+    """Orthogonal unit directions of x and y."""
+
+    @model_validator(mode="after")
+    def _orthonormal(self) -> Self:
+        right, down = self.right_in_vertebra, self.down_in_vertebra
+        products = (_dot(right, right) - 1.0, _dot(down, down) - 1.0, _dot(right, down))
+        if max(map(abs, products)) > MAX_DIRECTION_ERROR:
+            raise ValueError("the directions of a plane must be orthogonal unit vectors")
+        return self
+
+
 class PointerMessage(Message):
     """A pointer; it disappears 2 s after its last move."""
 
@@ -43,8 +72,10 @@ class PointerMessage(Message):
     """Number of the page that it comes from."""
     name: str
     role: Role
-    at_px: list[float]
-    """x, y in pixels of the full-size image."""
+    at: list[float]
+    """x, y in pixels of the full-size image; with a plane, in mm on it."""
+    plane: CutPlaneMessage | None
+    """Plane of the cut that it is on; null on the video."""
     image_number: int
     """Number of the image it refers to."""
     captured_at_s: float
@@ -68,8 +99,10 @@ class DrawingMessage(Message):
     """Remaining display time."""
     from_point: int
     """Index of the first point in this message; earlier ones were sent before."""
-    points_px: list[list[float]]
-    """x, y in pixels of the full-size image."""
+    points: list[list[float]]
+    """x, y in pixels of the full-size image; with a plane, in mm on it."""
+    plane: CutPlaneMessage | None
+    """Plane of the cut that it was drawn on; null on the video."""
 
 
 class SignatureMessage(Message):
@@ -165,7 +198,9 @@ class SignatureRequest(Message):
 class PointCommand(Message):
     """Move your pointer."""
 
-    at_px: PixelMessage
+    at: MarkPointMessage
+    """x, y in pixels of the full-size image; with a plane, in mm on it."""
+    plane: CutPlaneMessage | None = None
     image_number: Number
     captured_at_s: Seconds
 
@@ -176,7 +211,9 @@ class DrawCommand(Message):
     key: Number
     """Chosen by the client, unique for each drawing."""
     shape: Shape
-    points_px: Points
+    points: Points
+    """x, y in pixels of the full-size image; with a plane, in mm on it."""
+    plane: CutPlaneMessage | None = None
     image_number: Number
     captured_at_s: Seconds
 
@@ -185,7 +222,8 @@ class ExtendCommand(Message):
     """Add points to a drawing."""
 
     key: Number
-    points_px: Points
+    points: Points
+    """On what it was started on."""
 
 
 class ClientMessage(Message):
@@ -254,6 +292,38 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
     )
 
 
+def cut_plane(message: CutPlaneMessage | None) -> CutPlane | None:
+    """Return the plane of a command."""
+    if message is None:
+        return None
+    return CutPlane(
+        ct_id=message.ct_id,
+        origin_in_vertebra_mm=_vector(message.origin_in_vertebra_mm),
+        right_in_vertebra=_vector(message.right_in_vertebra),
+        down_in_vertebra=_vector(message.down_in_vertebra),
+    )
+
+
+def _vector(values: Sequence[float]) -> Vector:
+    x, y, z = values
+    return x, y, z
+
+
+def _dot(first: Sequence[float], second: Sequence[float]) -> float:
+    return sum(a * b for a, b in zip(first, second, strict=True))
+
+
+def _plane(plane: CutPlane | None) -> CutPlaneMessage | None:
+    if plane is None:
+        return None
+    return CutPlaneMessage(
+        ct_id=plane.ct_id,
+        origin_in_vertebra_mm=list(plane.origin_in_vertebra_mm),
+        right_in_vertebra=list(plane.right_in_vertebra),
+        down_in_vertebra=list(plane.down_in_vertebra),
+    )
+
+
 def _hold(asking: tuple[HoldRequest, ...], your_id: str) -> HoldMessage:
     return HoldMessage(
         requested_by=[one.name for one in asking],
@@ -278,7 +348,8 @@ def _pointer(one: Pointer, now_s: float) -> PointerMessage:
         seat=one.session,
         name=one.person.name,
         role=one.person.role,
-        at_px=list(one.at_px),
+        at=list(one.at),
+        plane=_plane(one.plane),
         image_number=one.moment.image_number,
         captured_at_s=one.moment.captured_at_s,
         still_ms=1000.0 * (now_s - one.moved_at_s),
@@ -302,5 +373,6 @@ def _drawing(grown: DrawingExtension, your_id: str, *, left_s: float) -> Drawing
         captured_at_s=one.moment.captured_at_s,
         left_s=left_s,
         from_point=grown.from_point,
-        points_px=[list(point) for point in grown.points_px],
+        points=[list(point) for point in grown.points],
+        plane=_plane(one.plane),
     )

@@ -5,7 +5,8 @@ otherwise after a second as a heartbeat. One message is in flight at a time; cha
 unchanged parts are not repeated. The time until the next request of the client measures its connection.
 
 Supervisors and the operator may also send `point`, `lift`, `draw`, `extend`, `undo` and `clear`
-(`ClientMessage`). Commands without permission, or too many, close the connection with 1008 or 1009.
+(`ClientMessage`). Marks are made on the video image or, with a plane, on a cut of the CT.
+Commands without permission, or too many, close the connection with 1008 or 1009.
 """
 
 import asyncio
@@ -15,7 +16,7 @@ import structlog
 from pydantic import ValidationError
 from starlette.websockets import WebSocket
 
-from server.api.supervision_messages import ClientMessage, room_message
+from server.api.supervision_messages import ClientMessage, cut_plane, room_message
 from server.security import person_of
 from server.stream.connection import connection_of
 from server.stream.errors import TooManyViewers
@@ -109,12 +110,13 @@ def _do(message: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> No
     room, session, now_s = room_hub.room, here.session, room_hub.now_s
     if message.point is not None:
         moment = Moment(image_number=message.point.image_number, captured_at_s=message.point.captured_at_s)
-        x, y = message.point.at_px
-        room.point(session, (x, y), moment, room_hub.shown, now_s=now_s)
+        x, y = message.point.at
+        plane = cut_plane(message.point.plane)
+        room.point(session, (x, y), moment, room_hub.shown, plane=plane, now_s=now_s)
     elif message.draw is not None:
         _draw(message, room_hub, here)
     elif message.extend is not None:
-        points = [(x, y) for x, y in message.extend.points_px]
+        points = [(x, y) for x, y in message.extend.points]
         room.extend(session, message.extend.key, points, room_hub.shown, now_s=now_s)
     elif message.undo:
         if room.undo(session, now_s=now_s):
@@ -127,15 +129,15 @@ def _do(message: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> No
 
 
 def _draw(message: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> None:
-    """Log author, time and image of a drawing; its points are not stored."""
+    """Log author, time, image and CT of a drawing; its points are not stored."""
     draw = message.draw
     if draw is None:
         return
     moment = Moment(image_number=draw.image_number, captured_at_s=draw.captured_at_s)
-    points = [(x, y) for x, y in draw.points_px]
-    session = here.session
+    points = [(x, y) for x, y in draw.points]
+    session, plane = here.session, cut_plane(draw.plane)
     if room_hub.room.draw(
-        session, draw.key, draw.shape, points, moment, room_hub.shown, now_s=room_hub.now_s
+        session, draw.key, draw.shape, points, moment, room_hub.shown, plane=plane, now_s=room_hub.now_s
     ):
         _log.info(
             "drawn",
@@ -143,4 +145,5 @@ def _draw(message: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> 
             role=session.person.role.value,
             shape=draw.shape.value,
             image_number=draw.image_number,
+            ct_id=None if plane is None else plane.ct_id,
         )

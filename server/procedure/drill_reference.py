@@ -13,7 +13,7 @@ from server.procedure.surface import MAIN_SURFACE
 from server.store import CaseStore, Document, DocumentKind
 from tracker.errors import NavigationError
 from tracker.navigation import DrillReference, ScrewSize
-from tracker.navigation.clearance import WallSelection, WallSource, select_wall
+from tracker.navigation.clearance import WallDistanceField, WallSelection, WallSource, select_wall
 from tracker.navigation.uncertainty import PedicleTolerance
 from tracker.plan import PedicleMeasure, ScrewPlan, plan_from_mapping
 from tracker.plan.document.changes import vertebra_named
@@ -75,6 +75,14 @@ class DrillReferenceBuilder:
         if surface is not None:
             self._measure(key, planned, drill_reference, surface)
         return drill_reference
+
+    def bone_wall(self, active: Document) -> WallDistanceField | None:
+        """Return the bone around the channel of this document; None if unknown or contradicting the plan."""
+        with self._lock:
+            made = self._made
+        if made is None or made[0][0] != active.id or made[1].wall.against is not WallSource.BONE:
+            return None
+        return made[1].wall
 
     def _measure(
         self,

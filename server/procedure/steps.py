@@ -118,11 +118,12 @@ class Steps:
         marker_step = MarkerStep(store=store, defaults=markers)
         procedure = _procedure(store, config, defaults, tracking.tracked_from_s)
         latencies = LatencyFile(store.home.folder)
+        drill_references = DrillReferenceBuilder(store=store, jobs=jobs)
         setup_publisher = SetupPublisher(
             store,
             tracking,
             procedure=procedure,
-            drill_references=DrillReferenceBuilder(store=store, jobs=jobs),
+            drill_references=drill_references,
             defaults=defaults,
             markers=marker_step,
             latency=lambda: _latency(latencies, defaults.source),
@@ -130,7 +131,13 @@ class Steps:
         _publish_changes(setup_publisher, store)
         ct_provider = CtProvider(store)
         surface = SurfaceStep(store=store, jobs=jobs, ct_provider=ct_provider)
-        plan = PlanStep(store=store, jobs=jobs, ct_provider=ct_provider, config=config.plan)
+        plan = PlanStep(
+            store=store,
+            jobs=jobs,
+            ct_provider=ct_provider,
+            config=config.plan,
+            bone_wall=drill_references.bone_wall,
+        )
         registration = _registration(hub, store, config, procedure, defaults, plan=plan, surface=surface)
         placement = PlacementStep(
             hub=hub,

@@ -2,8 +2,8 @@
 
 Only this package imports viser. viser opens no port and starts no thread here: a WebSocket of the application
 drives its message producer (`door.py`), and no message of a viewer reaches it (`gate.py`). `nodes.py`,
-`drills.py` and `stage.py` define the content, `views.py` the viewpoints. `page.py` and `watch.js` make the
-page of viser report the drawn image and apply a viewpoint.
+`drills.py`, `marks.py` and `stage.py` define the content, `views.py` the viewpoints. `page.py` and `watch.js`
+make the page of viser report the drawn image and clicks on the bone, and apply a viewpoint.
 """
 
 from server.scene.scene import Admit, Cut, Scene, mount_scene

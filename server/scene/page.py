@@ -92,6 +92,7 @@ def make_page(*, stale_after_ms: float, silent_after_ms: float) -> Page:
         "__NUMBER_BASE__": NUMBER_BASE,
         "__SEEN_THROUGH__": [BONE_NODE, CHANNEL_NODE, TIP_NODE, CONE_NODE],
         "__VIEWS_NODE__": VIEWS_NODE,
+        "__BONE_NODE__": BONE_NODE,
         "__VIEW_ANGLES_DEG__": ANGLE_DEG,
     }
     for token, value in values.items():

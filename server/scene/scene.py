@@ -3,7 +3,7 @@
 import asyncio
 import contextlib
 import time
-from collections.abc import Callable, MutableMapping
+from collections.abc import Callable, MutableMapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from functools import cache
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
@@ -24,6 +24,7 @@ from tracker.plan import Surface
 
 if TYPE_CHECKING:
     from server.scene.door import Door
+    from server.scene.marks import Mark
     from server.scene.page import Page
     from server.scene.stage import Stage
 
@@ -44,6 +45,15 @@ _log = structlog.get_logger(__name__)
 Cut: TypeAlias = Callable[[MutableMapping[str, Any]], None]
 # Registers a viewer for the duration of its connection; raises a NavigationError if it is not admitted.
 Admit: TypeAlias = Callable[[Person], AbstractContextManager[object]]
+
+
+# Returns the marks on cuts that are shown now; called in the event loop.
+CutMarks: TypeAlias = "Callable[[], Sequence[Mark]]"
+
+
+def no_marks() -> "Sequence[Mark]":
+    """Return no mark; used without a room."""
+    return ()
 
 
 def anybody(_person: Person) -> AbstractContextManager[object]:
@@ -77,8 +87,10 @@ class Scene:
         stale_after_ms: float = 500.0,
         admit: Admit = anybody,
         cut: Cut | None = None,
+        marks: CutMarks = no_marks,
     ) -> None:
         self._hub = hub
+        self._marks = marks
         self._admit = admit
         self._cut = cut
         self._setup = setup
@@ -165,7 +177,7 @@ class Scene:
 
     def _draw(self, stage: "Stage", instant: Instant) -> None:
         try:
-            stage.show(instant)
+            stage.show(instant, self._marks())
         except Exception:  # noqa: BLE001 one bad instant must not freeze the scene for ever
             _log.exception("scene_instant_failed", sequence=instant.sequence)
             stage.show_nothing()
@@ -295,12 +307,13 @@ def mount_scene(
     stale_after_ms: float = 500.0,
     admit: Admit = anybody,
     cut: Cut | None = None,
+    marks: CutMarks = no_marks,
 ) -> None:
     """Add `GET /scene/` and `WS /scene`, and put the scene at `app.state.scene`.
 
     The application's lifespan calls `app.state.scene.start()` and `.stop()`. The routes are inserted first,
     so that a catch-all route of the page does not hide them. `admit` registers a viewer or rejects it; `cut`
-    aborts the connection of a stalled viewer.
+    aborts the connection of a stalled viewer; `marks` returns the marks on cuts.
     """
     scene = Scene(
         hub=hub,
@@ -309,6 +322,7 @@ def mount_scene(
         stale_after_ms=stale_after_ms,
         admit=admit,
         cut=cut,
+        marks=marks,
     )
     app.state.scene = scene
     app.router.routes[:0] = scene.routes

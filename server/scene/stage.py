@@ -1,10 +1,13 @@
 """Drawing of one instant into the scene, atomically."""
 
+from collections.abc import Sequence
+
 import viser
 
 from server.live import Instant
 from server.scene.door import Door
 from server.scene.drills import DrillNodes, DrillNow
+from server.scene.marks import Mark, MarkNodes
 from server.scene.nodes import (
     VIEW_ANGLE_RAD,
     Vector,
@@ -56,6 +59,7 @@ class Stage:
         self._root: viser.FrameHandle | None = None
         self._reference: viser.FrameHandle | None = None
         self._tools: dict[str, DrillNodes] = {}
+        self._marks: MarkNodes | None = None
         scene = door.scene
         self._views = ViewNodes(scene)
         scene.configure_environment_map(hdri=None)
@@ -69,8 +73,13 @@ class Stage:
         self._number = scene.add_frame(NUMBER_NODE, show_axes=False, visible=False)
         self._count(None)
 
-    def show(self, instant: Instant) -> None:
-        """Draw this instant: each visible drill in its pose, other drills hidden, and the image number."""
+    def show(self, instant: Instant, marks: Sequence[Mark] = ()) -> None:
+        """Draw this instant: each visible drill in its pose, other drills hidden, and the image number.
+
+        Args:
+            instant: the instant.
+            marks: marks on cuts; those of another CT are left out.
+        """
         snapshot = instant.snapshot
         if snapshot is None:
             self.show_nothing()
@@ -85,16 +94,21 @@ class Stage:
             self._place_reference(snapshot, world_from_camera)
             for name, nodes in self._tools.items():
                 nodes.show(_drill_now(snapshot, name, world_from_camera))
+            if self._marks is not None:
+                ct_id = snapshot.setup.ct_id
+                self._marks.show([one for one in marks if one.plane is not None and one.plane.ct_id == ct_id])
             self._count(snapshot.image_number)
         self._door.flush()
 
     def show_nothing(self) -> None:
-        """Hide every drill, because there is no image."""
+        """Hide every drill and mark, because there is no image."""
         with self._door.atomic():
             if self._reference is not None:
                 self._reference.visible = False
             for nodes in self._tools.values():
                 nodes.show(None)
+            if self._marks is not None:
+                self._marks.show(())
             self._count(None)
         self._door.flush()
 
@@ -143,12 +157,13 @@ class Stage:
         self._generation += 1
         root = f"/setup_{self._generation}"
         self._root = scene.add_frame(root, show_axes=False)
-        self._tools, self._camera, self._reference = {}, None, None
+        self._tools, self._camera, self._reference, self._marks = {}, None, None, None
         self._drawn_setup, self._drawn_key = setup, None if setup is None else _key(setup)
         self._look(setup)
         if setup is None:
             return
         if not isinstance(setup.registration, Absent):
+            self._marks = MarkNodes(scene, root)
             if self._surface is not None:
                 add_bone(scene, root, self._surface)
             if isinstance(setup.channel, Channel):

@@ -177,6 +177,78 @@
     viewedFrom = null;
   });
 
+  // A click on the bone, as a point of it in the vertebra frame, which is that of the mesh. three.js is inside of
+  // viser's bundle and only reached through its objects.
+  const boneNode = __BONE_NODE__;
+  const clickWithinPx = 5;
+  const clickWithinMs = 600;
+  const meshesOf = (viewer) => {
+    const found = [];
+    for (const [name, node] of Object.entries(viewer.nodeRefFromName)) {
+      if (node && name.endsWith(boneNode)) node.traverse((part) => { if (part.isMesh) found.push(part); });
+    }
+    return found;
+  };
+  const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+  const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  // Share of the way from `start` at which a ray meets a triangle (Moeller and Trumbore 1997); infinite if it misses.
+  const meets = (start, way, [a, b, c]) => {
+    const [ab, ac] = [minus(b, a), minus(c, a)];
+    const normal = cross(way, ac);
+    const scale = dot(ab, normal);
+    if (Math.abs(scale) < 1e-12) return Infinity;
+    const toStart = minus(start, a);
+    const u = dot(toStart, normal) / scale;
+    const side = cross(toStart, ab);
+    const v = dot(way, side) / scale;
+    const share = dot(ac, side) / scale;
+    return u >= 0 && v >= 0 && u + v <= 1 && share > 0 ? share : Infinity;
+  };
+  const pointOnMesh = (mesh, camera, x, y) => {
+    const { position } = mesh.geometry.attributes;
+    const { index } = mesh.geometry;
+    mesh.updateWorldMatrix(true, false);
+    const fromWorld = mesh.matrixWorld.clone().invert();
+    const [start, end] = [-1, 1].map((depth) =>
+      camera.position.clone().set(x, y, depth).unproject(camera).applyMatrix4(fromWorld).toArray());
+    const way = minus(end, start);
+    const corner = (number) => {
+      const at = index ? index.getX(number) : number;
+      return [position.getX(at), position.getY(at), position.getZ(at)];
+    };
+    let nearest = Infinity;
+    for (let first = 0; first < (index || position).count; first += 3) {
+      nearest = Math.min(nearest, meets(start, way, [corner(first), corner(first + 1), corner(first + 2)]));
+    }
+    return { share: nearest, point: start.map((one, axis) => one + nearest * way[axis]) };
+  };
+  const clickOn = (event) => {
+    const viewer = window.__viserMutable;
+    if (window.parent === window || !viewer || !viewer.camera || !viewer.nodeRefFromName) return;
+    if (document.documentElement.dataset.coaxial !== "live") return;
+    const x = (2 * event.clientX) / innerWidth - 1;
+    const y = 1 - (2 * event.clientY) / innerHeight;
+    const [first] = meshesOf(viewer)
+      .map((mesh) => pointOnMesh(mesh, viewer.camera, x, y))
+      .filter(({ share }) => share < Infinity)
+      .sort((a, b) => a.share - b.share);
+    if (!first) return;
+    const message = { kind: "coaxial-bone-point", point_in_vertebra_mm: first.point };
+    window.parent.postMessage(message, location.origin);
+  };
+  let pressed = null;
+  addEventListener("pointerdown", (event) => {
+    pressed = event.isPrimary && event.button === 0 ? { x: event.clientX, y: event.clientY, at: now() } : null;
+  }, true);
+  addEventListener("pointerup", (event) => {
+    // What moves the view is no click.
+    const isClick = pressed !== null && event.isPrimary && now() - pressed.at <= clickWithinMs &&
+      Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) <= clickWithinPx;
+    pressed = null;
+    if (isClick) clickOn(event);
+  }, true);
+
   let last = null;
   const look = () => {
     requestAnimationFrame(look);

@@ -109,6 +109,7 @@ GET     /api/ct/oblique.png
 GET     /api/ct/oblique
 GET     /api/plan
 GET     /api/plan/catalogue
+GET     /api/plan/clearances
 GET     /api/plan/export
 GET     /api/plan/markups
 GET     /api/plan/proposals/screw

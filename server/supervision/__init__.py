@@ -1,7 +1,7 @@
 """Presence, marks, hold requests and co-signatures of viewers. Nothing here moves anything.
 
 participants.py     people present, each once, and the state of their connection
-marks.py            pointers and drawings, in pixels of the image on which they were made
+marks.py            pointers and drawings, in pixels of an image or in mm on the plane of a cut
 room.py             participants and marks, with the permissions of each role; pure: time is passed in
 room_updates.py     the state already sent to one connection, so that only changes are sent
 room_hub.py         the room with its clock and its subscribers

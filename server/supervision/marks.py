@@ -1,6 +1,7 @@
-"""Pointers and drawings on the video image; each belongs to one image, and expires with it.
+"""Pointers and drawings on the video image or on a cut of the CT; each expires with the image then shown.
 
-Marks are kept in memory only, with one line each in the log; they do not survive the process.
+A mark on a cut is bound to the CT as well, and is removed as soon as another CT is navigated. Marks are kept
+in memory only, with one line each in the log; they do not survive the process.
 """
 
 from collections.abc import Sequence
@@ -10,7 +11,10 @@ from typing import TypeAlias
 
 from server.security import Person
 
-Pixel: TypeAlias = tuple[float, float]
+# x, y on what the mark was made on: in pixels of the whole image, or in mm on the plane of a cut. One type
+# for both, since pen, arrow and circle are the same shapes on either.
+MarkPoint: TypeAlias = tuple[float, float]
+Vector: TypeAlias = tuple[float, float, float]
 
 # A pointer that has not moved for this long is removed.
 POINTER_TIMEOUT_S = 2.0
@@ -41,20 +45,38 @@ class Moment:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CutPlane:
+    """The plane of a cut on which a mark was made.
+
+    Attributes:
+        ct_id: id of the CT, in whose frame (the vertebra's) the plane is stated.
+        origin_in_vertebra_mm: the plane's point (0, 0).
+        right_in_vertebra, down_in_vertebra: orthogonal unit directions of x and y.
+    """
+
+    ct_id: str
+    origin_in_vertebra_mm: Vector
+    right_in_vertebra: Vector
+    down_in_vertebra: Vector
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Pointer:
     """Current pointer of one page.
 
     Attributes:
         session: number of the page's session.
         person: its owner.
-        at_px: x, y in pixels of the whole image.
+        at: its position on the image or on the plane.
+        plane: the plane of a cut; None on the image.
         moment: the image that was shown.
         moved_at_s: time of its last move, monotonic.
     """
 
     session: int
     person: Person
-    at_px: Pixel
+    at: MarkPoint
+    plane: CutPlane | None = None
     moment: Moment
     moved_at_s: float
 
@@ -68,8 +90,9 @@ class Drawing:
         session: number of the page's session.
         person: its owner.
         shape: its shape.
-        moment: the image on which it was started.
-        points_px: x, y in pixels of the whole image.
+        moment: the image that was shown when it was started.
+        plane: the plane of a cut; None on the image.
+        points: its points on the image or on the plane.
     """
 
     key: str
@@ -77,7 +100,8 @@ class Drawing:
     person: Person
     shape: Shape
     moment: Moment
-    points_px: list[Pixel] = field(default_factory=list)
+    plane: CutPlane | None = None
+    points: list[MarkPoint] = field(default_factory=list)
 
 
 class Marks:
@@ -130,15 +154,25 @@ class Marks:
             del self._drawings[next(iter(self._drawings))]
         self._drawings[drawing.key] = drawing
 
-    def extend(self, key: str, points_px: Sequence[Pixel]) -> bool:
-        """Append points; return False above the maximum length. Points of an expired drawing are ignored."""
-        drawing = self._drawings.get(key)
-        if drawing is None:
-            return True
-        if len(drawing.points_px) + len(points_px) > MAX_POINTS_PER_DRAWING:
+    def find(self, key: str) -> Drawing | None:
+        """Return a drawing; None if it has expired."""
+        return self._drawings.get(key)
+
+    def extend(self, drawing: Drawing, points: Sequence[MarkPoint]) -> bool:
+        """Append points; return False above the maximum length."""
+        if len(drawing.points) + len(points) > MAX_POINTS_PER_DRAWING:
             return False
-        drawing.points_px.extend(points_px)
+        drawing.points.extend(points)
         return True
+
+    def retain_ct(self, ct_id: str) -> None:
+        """Remove marks on cuts of another CT than this one."""
+
+        def is_other(plane: CutPlane | None) -> bool:
+            return plane is not None and plane.ct_id != ct_id
+
+        self._pointers = {key: one for key, one in self._pointers.items() if not is_other(one.plane)}
+        self._drawings = {key: one for key, one in self._drawings.items() if not is_other(one.plane)}
 
     def undo(self, person_id: str) -> bool:
         """Remove the newest drawing of a person; return whether there was one."""

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from server.security import Person, Role
 from server.supervision.marks import (
     MAX_POINTS_PER_DRAWING,
+    CutPlane,
     Drawing,
+    MarkPoint,
     Marks,
     Moment,
-    Pixel,
     Pointer,
     Shape,
 )
@@ -22,6 +23,8 @@ MAX_SESSIONS_PER_PERSON = 20
 # A page sends at most 25 pointer and 25 drawing messages per second, each with a request for the next
 # message.
 MARKS_PER_SECOND, MARKS_AT_ONCE = 60.0, 120.0
+# A cut is at most 110 mm wide and high.
+MAX_ON_CUT_MM = 200.0
 MAY_MARK = frozenset({Role.SUPERVISOR, Role.OPERATOR})
 
 
@@ -40,10 +43,12 @@ class ShownImage:
     Attributes:
         moment: its number and capture time.
         size_wh_px: its width and height.
+        ct_id: of the CT that is navigated, on whose cuts marks are made; empty if there is none.
     """
 
     moment: Moment
     size_wh_px: tuple[int, int]
+    ct_id: str = ""
 
 
 class Room:
@@ -89,17 +94,29 @@ class Room:
         return participants_of(self._sessions.values(), now_s)
 
     def point(
-        self, session: RoomSession, at_px: Pixel, moment: Moment, shown: ShownImage | None, *, now_s: float
+        self,
+        session: RoomSession,
+        at: MarkPoint,
+        moment: Moment,
+        shown: ShownImage | None,
+        *,
+        plane: CutPlane | None = None,
+        now_s: float,
     ) -> None:
-        """Set the pointer of a page; it is ignored off the image.
+        """Set the pointer of a page; it is ignored off the image, or on another CT.
 
         Raises:
             RoomPolicyViolation: not for this role; rate limit.
         """
         self._reject(session, now_s)
-        if shown is not None and _is_on(shown, [at_px]) and _was_shown(moment, shown):
+        if shown is not None and _is_on(shown, plane, [at]) and _was_shown(moment, shown):
             pointer = Pointer(
-                session=session.number, person=session.person, at_px=at_px, moment=moment, moved_at_s=now_s
+                session=session.number,
+                person=session.person,
+                at=at,
+                plane=plane,
+                moment=moment,
+                moved_at_s=now_s,
             )
             self.marks.point(pointer)
 
@@ -117,23 +134,22 @@ class Room:
         session: RoomSession,
         key: int,
         shape: Shape,
-        points_px: Sequence[Pixel],
+        points: Sequence[MarkPoint],
         moment: Moment,
         shown: ShownImage | None,
         *,
+        plane: CutPlane | None = None,
         now_s: float,
     ) -> bool:
-        """Start a drawing; return False without an image, or off it.
+        """Start a drawing; return False without an image, off it, or on another CT.
 
         Raises:
             RoomPolicyViolation: not for this role; rate limit; an arrow or circle without two points.
         """
         self._reject(session, now_s)
-        if shape is not Shape.PEN and len(points_px) != 2:
-            raise RoomPolicyViolation(
-                f"a drawing of shape {shape.value} needs 2 points, not {len(points_px)}"
-            )
-        if shown is None or not _is_on(shown, points_px) or not _was_shown(moment, shown):
+        if shape is not Shape.PEN and len(points) != 2:
+            raise RoomPolicyViolation(f"a drawing of shape {shape.value} needs 2 points, not {len(points)}")
+        if shown is None or not _is_on(shown, plane, points) or not _was_shown(moment, shown):
             return False
         self.marks.begin(
             Drawing(
@@ -142,7 +158,8 @@ class Room:
                 person=session.person,
                 shape=shape,
                 moment=moment,
-                points_px=list(points_px),
+                plane=plane,
+                points=list(points),
             )
         )
         return True
@@ -151,20 +168,21 @@ class Room:
         self,
         session: RoomSession,
         key: int,
-        points_px: Sequence[Pixel],
+        points: Sequence[MarkPoint],
         shown: ShownImage | None,
         *,
         now_s: float,
     ) -> None:
-        """Append points of the pen.
+        """Append points of the pen; those of an expired drawing are ignored.
 
         Raises:
             RoomPolicyViolation: not for this role; rate limit; too long.
         """
         self._reject(session, now_s)
-        if shown is None or not _is_on(shown, points_px):
+        drawing = self.marks.find(_key(session, key))
+        if shown is None or drawing is None or not _is_on(shown, drawing.plane, points):
             return
-        if not self.marks.extend(_key(session, key), points_px):
+        if not self.marks.extend(drawing, points):
             raise RoomPolicyViolation(f"a drawing has at most {MAX_POINTS_PER_DRAWING} points")
 
     def undo(self, session: RoomSession, *, now_s: float) -> bool:
@@ -198,10 +216,13 @@ def _key(session: RoomSession, key: int) -> str:
     return f"{session.number}-{key}"
 
 
-def _is_on(shown: ShownImage, points_px: Sequence[Pixel]) -> bool:
-    """Return whether all points lie on the image, whose size may have changed since the drawing."""
+def _is_on(shown: ShownImage, plane: CutPlane | None, points: Sequence[MarkPoint]) -> bool:
+    """Return whether all points lie on the image, whose size may have changed, or on a cut of this CT."""
+    if plane is not None:
+        is_near = all(abs(part) <= MAX_ON_CUT_MM for point in points for part in point)
+        return is_near and plane.ct_id == shown.ct_id
     width, height = shown.size_wh_px
-    return all(-0.5 <= x <= width - 0.5 and -0.5 <= y <= height - 0.5 for x, y in points_px)
+    return all(-0.5 <= x <= width - 0.5 and -0.5 <= y <= height - 0.5 for x, y in points)
 
 
 def _was_shown(moment: Moment, shown: ShownImage) -> bool:

@@ -11,7 +11,7 @@ from server.clock import utc_now, utc_text
 from server.live import LiveHub
 from server.security import Person
 from server.supervision.hold_requests import HoldRequests
-from server.supervision.marks import Moment
+from server.supervision.marks import Drawing, Moment, Pointer
 from server.supervision.participants import RoomSession, View
 from server.supervision.room import Room, ShownImage
 from server.supervision.room_updates import RoomState
@@ -78,6 +78,7 @@ class RoomHub:
         return ShownImage(
             moment=Moment(image_number=snapshot.image_number, captured_at_s=snapshot.captured_at_s),
             size_wh_px=snapshot.size_wh_px,
+            ct_id=snapshot.setup.ct_id,
         )
 
     @contextmanager
@@ -116,8 +117,21 @@ class RoomHub:
         if loop is not None and not loop.is_closed():
             loop.call_soon_threadsafe(self.notify)
 
+    def marks_on_cuts(self) -> tuple[Drawing | Pointer, ...]:
+        """Return the marks on cuts of the CT that is navigated."""
+        self._retain_ct()
+        marks, now_s = self.room.marks, self.now_s
+        return tuple(one for one in (*marks.drawings(now_s), *marks.pointers(now_s)) if one.plane is not None)
+
+    def _retain_ct(self) -> None:
+        shown = self.shown
+        # Without an image it is unknown which CT is navigated; the pages then show no cut.
+        if shown is not None:
+            self.room.marks.retain_ct(shown.ct_id)
+
     def state(self) -> RoomState:
         """Return the state of the room now."""
+        self._retain_ct()
         now_s, asking = self.now_s, self._holds.requests
         return RoomState(
             now_s=now_s,

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from server.supervision.hold_storage import HoldRequest
-from server.supervision.marks import Drawing, Pixel, Pointer
+from server.supervision.marks import Drawing, MarkPoint, Pointer
 from server.supervision.participants import Participant
 from server.supervision.signatures import Signable
 
@@ -39,12 +39,12 @@ class DrawingExtension:
     Attributes:
         drawing: the drawing.
         from_point: index of the first new point.
-        points_px: the new points.
+        points: the new points.
     """
 
     drawing: Drawing
     from_point: int
-    points_px: Sequence[Pixel]
+    points: Sequence[MarkPoint]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,12 +78,12 @@ class SentState:
             DrawingExtension(
                 drawing=one,
                 from_point=self._points_of.get(one.key, 0),
-                points_px=one.points_px[self._points_of.get(one.key, 0) :],
+                points=one.points[self._points_of.get(one.key, 0) :],
             )
             for one in state.drawings
-            if self._points_of.get(one.key, 0) < len(one.points_px)
+            if self._points_of.get(one.key, 0) < len(one.points)
         )
-        self._points_of = {one.key: len(one.points_px) for one in state.drawings}
+        self._points_of = {one.key: len(one.points) for one in state.drawings}
         people = None if state.people == self._people else state.people
         signable = None if state.signable == self._signable else state.signable
         self._people, self._signable = state.people, state.signable

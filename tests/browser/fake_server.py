@@ -192,12 +192,23 @@ def backdrop() -> npt.NDArray[np.uint8]:
 LIMITS = {"pose_stale_after_ms": 700}
 
 
-class Feeder(threading.Thread):
-    """Publishes instants until the process ends."""
+def with_ct(instant: Instant, ct_id: str) -> Instant:
+    """The same with a channel planned on this CT."""
+    snapshot = instant.snapshot
+    if snapshot is None or ct_id == "":
+        return instant
+    return replace(instant, snapshot=replace(snapshot, setup=replace(snapshot.setup, ct_id=ct_id)))
 
-    def __init__(self, hub: LiveHub, alarms: AlarmService, *, rate_hz: float = RATE_HZ) -> None:
+
+class Feeder(threading.Thread):
+    """Publishes instants until the process ends, with a CT if it has an id."""
+
+    def __init__(
+        self, hub: LiveHub, alarms: AlarmService, *, rate_hz: float = RATE_HZ, ct_id: str = ""
+    ) -> None:
         super().__init__(name="feeder", daemon=True)
         self._rate_hz = rate_hz
+        self._ct_id = ct_id
         self._hub = hub
         self._alarms = alarms
         self._ended = threading.Event()
@@ -209,7 +220,8 @@ class Feeder(threading.Thread):
         sequence = 0
         while not self._ended.wait(1.0 / (FAST_RATE_HZ if self.mode == "fast" else self._rate_hz)):
             if self.mode != "stop":
-                self._hub.publish(instant_at(sequence, self.mode, ground, self._alarms))
+                instant = instant_at(sequence, self.mode, ground, self._alarms)
+                self._hub.publish(with_ct(instant, self._ct_id))
                 sequence += 1
 
     def end(self) -> None:

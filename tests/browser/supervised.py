@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from playwright.sync_api import Page, expect
 
+from tests.browser.made_up_ct import answer_ct
 from tests.browser.theatre import CHECKOUT, WatchedPage
 
 
@@ -32,6 +33,7 @@ def opened(
     watched = watch(server, *size)
     address = f"http://127.0.0.1:{server.port}"
     watched.page.context.add_cookies([{"name": "person", "value": person, "url": address}])
+    watched.page.route("**/api/navigation/ct", answer_ct)
     page = watched.open(path)
     expect(page.get_by_test_id("video")).to_have_attribute("data-live", "true")
     return page

@@ -31,6 +31,7 @@ from server.procedure.registration_record import (
 )
 from server.store import CaseStore, DocumentKind, Home
 from tests.browser.fake_server import Feeder, setup
+from tests.browser.made_up_ct import CT_ID
 from tests.procedure.patient import CAMERA_FROM_VERTEBRA, plan_content
 from tests.server.recording.no_recorder import recordings_without_process
 from tests.server.recording.reviewed import DRILLED, write_drilling
@@ -160,7 +161,7 @@ def main() -> None:
         server = uvicorn.Server(uvicorn.Config(app, log_level="error", lifespan="on"))
         serving = threading.Thread(target=server.run, args=([door],), name="web server", daemon=True)
         serving.start()
-        feeder = Feeder(hub, alarms, rate_hz=RATE_HZ)
+        feeder = Feeder(hub, alarms, rate_hz=RATE_HZ, ct_id=CT_ID)
         feeder.start()
         sys.stdout.write(f"{door.getsockname()[1]}\n")
         sys.stdout.flush()

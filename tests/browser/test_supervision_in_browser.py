@@ -92,6 +92,30 @@ def marks_reach(theatre: Page, sato: Page) -> None:
     expect(marks).to_have_attribute("data-marks", "0")
 
 
+def marks_on_a_cut_reach(theatre: Page, sato: Page) -> None:
+    # A circle on a cut is in the theatre's cut of the same plane, not on the video; a cut across it shows the
+    # parts that it crosses.
+    sato.get_by_test_id("tile-axial").click()
+    cut, seen = sato.get_by_test_id("marks-axial"), theatre.get_by_test_id("marks-axial")
+    expect(sato.get_by_test_id("cut-axial")).to_have_attribute("data-shows", "live")
+    expect(theatre.get_by_test_id("cut-axial")).to_have_attribute("data-shows", "live")
+    sato.get_by_test_id("tool-circle").click()
+    box = cut.bounding_box()
+    assert box is not None
+    middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    sato.mouse.move(*middle)
+    sato.mouse.down()
+    sato.mouse.move(middle[0] + box["width"] / 5, middle[1], steps=4)
+    sato.mouse.up()
+    expect(seen).to_have_attribute("data-marks", "1")
+    expect(theatre.get_by_test_id("marks-sagittal")).to_have_attribute("data-marks", "1")
+    expect(theatre.get_by_test_id("marks")).to_have_attribute("data-marks", "0")
+    save_screenshot(theatre, "marks-on-a-cut-in-theatre")
+    save_screenshot(sato, "marks-on-a-cut")
+    sato.get_by_test_id("marks-undo").click()
+    expect(seen).to_have_attribute("data-marks", "0")
+
+
 def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page) -> None:
     # The required signature is missing; after review and two touches it exists, and navigation is allowed.
     asks = theatre.request.get
@@ -144,5 +168,6 @@ def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
     sato = opened(watch, supervised, "s1", "supervisor", (1280, 800))
     expect(sato.get_by_test_id("watching")).to_contain_text("Guest")
     marks_reach(theatre, sato)
+    marks_on_a_cut_reach(theatre, sato)
     signature_opens_navigation(supervised, theatre, sato)
     hold_is_heard(theatre, sato)

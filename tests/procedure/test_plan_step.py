@@ -9,6 +9,7 @@ import pytest
 from tests.procedure.conftest import Server
 from tests.procedure.test_ct_step import BY, opened, picture, sent
 from tests.procedure.uploads import dicom_zip, nifti, phantom, scanned
+from tracker.errors import PlanError
 from tracker.rehearsal.ct import PedicleTruth
 
 VOXEL_MM = 1.0
@@ -57,16 +58,27 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     coloured = (drawn.max(axis=2) - drawn.min(axis=2)) > 60
     assert 0.002 < coloured.mean() < 0.1
 
-    # A screw from the catalogue, with all of its values.
+    # The channel came with the proposed screw of the catalogue, with all of its values.
     size = server.ask("GET", "/api/plan/proposals/screw?vertebra=L3&side=left", 200)
     assert 4.0 <= size["diameter_mm"] <= 8.0
-    with_screw = server.ask("PUT", "/api/plan/vertebrae/L3/channels/left/screw", 200, json=BY)
+    with_screw = server.ask("GET", "/api/plan", 200)
     left = next(one for one in with_screw["plan"]["vertebrae"][0]["channels"] if one["side"] == "left")
     screw = left["screws"][0]
     assert {name: screw[name] for name in size} == size
     assert screw["clearance"]["grade"] == "A"
     assert screw["tolerance"]["max_offset_mm"] > 0.4
     assert screw["bone"]["mean_hu"] > 100
+
+    # Its clearance by depth is that of the figures, with the limit of the settings.
+    clearances = server.ask("GET", "/api/plan/clearances", 200)
+    assert (clearances["plan_id"], clearances["margin_mm"]) == (with_screw["heading"]["id"], 0.5)
+    by_side = {one["side"]: one["clearance"] for one in clearances["channels"]}
+    assert by_side["right"] == {"kind": "absent", "reason": "NO_SCREW"}
+    walls = ("medial_mm", "lateral_mm", "superior_mm", "inferior_mm")
+    assert by_side["left"]["against"] == "pedicle"
+    assert by_side["left"]["min_mm"] == pytest.approx(min(screw["clearance"][wall] for wall in walls))
+    assert by_side["left"]["min_mm"] == pytest.approx(min(by_side["left"]["clearance_mm"]), abs=1e-3)
+    assert 0.0 < by_side["left"]["min_depth_mm"] < screw["length_mm"]
 
     # The active channel reaches the tracking process and survives other changes.
     assert server.adopted == [] or server.adopted[-1].channel is None
@@ -207,8 +219,16 @@ def test_another_ct_makes_the_plan_out_of_date_until_it_is_sent_again(server: Se
     assert server.ask("PUT", "/api/plan", 409, json=again)["code"] == "VERSION_CONFLICT"
 
 
-def test_a_plan_is_exported_and_imported_with_its_author(server: Server) -> None:
-    plan = planned(server, dicom_zip())
+def test_a_plan_is_exported_and_imported_with_its_author(
+    server: Server, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def none_fits(*_: object, **__: object) -> tuple[float, float]:
+        raise PlanError("NO_SCREW_FITS", "", "")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("server.procedure.plan.step.propose_screw", none_fits)
+        plan = planned(server, dicom_zip())
+    assert [one["screws"] for one in plan["plan"]["vertebrae"][0]["channels"]] == [[], []]
     server.ask("PUT", "/api/plan/vertebrae/L3/channels/left/screw", 200, json=BY)
     file = server.ask("GET", "/api/plan/export", 200)
     assert (file["made_by"], file["version"]) == ("M. Ito", plan["heading"]["version"] + 1)

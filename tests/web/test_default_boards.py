@@ -22,4 +22,6 @@ def test_the_page_proposes_the_board_of_the_rehearsal(kind: BoardKind) -> None:
     for language in ("en", "de"):
         texts = (SOURCES / f"texts/case/{language}.ts").read_text()
         line = next(line for line in texts.splitlines() if line.strip().startswith(f"{kind}: "))
-        assert f"{board.columns} × {board.rows}, " in line, f"web/src/texts/case/{language}.ts: size of {kind}"
+        assert f"{board.columns} × {board.rows}, " in line, (
+            f"web/src/texts/case/{language}.ts: size of {kind}"
+        )

@@ -29,7 +29,9 @@ def test_what_a_browser_asks_of_an_app_is_there() -> None:
 
 
 def test_its_colour_is_the_page_s_ground() -> None:
-    ground = re.search(r"--ground: (#\w+);", (WEB / "src" / "theme" / "tokens.css").read_text(encoding="utf-8"))
+    ground = re.search(
+        r"--ground: (#\w+);", (WEB / "src" / "theme" / "tokens.css").read_text(encoding="utf-8")
+    )
     reported = re.search(r'name="theme-color" content="(#\w+)"', INDEX)
     assert ground is not None
     assert reported is not None

@@ -1,4 +1,4 @@
-"""The supervisor's page reads the numbers of a registration by the names under which the server stores them."""
+"""The names under which the supervisor's page reads the numbers of a registration are those of the server."""
 
 import re
 from pathlib import Path

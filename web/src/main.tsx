@@ -50,6 +50,7 @@ import "./theme/connection.css";
 import "./theme/latency.css";
 import "./theme/phone.css";
 import "./theme/recording.css";
+import "./theme/tablet.css";
 
 import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";

@@ -7,6 +7,7 @@ from server.procedure.plan.active_channel import (
     active_channel_from_document,
     planned_ct_id,
 )
+from server.procedure.plan.clearance import ActiveBone, NoClearance, PlannedClearance
 from server.procedure.plan.exchange import export_plan, import_plan
 from server.procedure.plan.picture import reference_picture, reference_slice
 from server.procedure.plan.repository import PlanRepository, StoredPlan, is_same_channel
@@ -14,10 +15,13 @@ from server.procedure.plan.step import Author, PlanStep, Proposal
 
 __all__ = [
     "ACTIVE_CHANNEL",
+    "ActiveBone",
     "ActiveChannel",
     "Author",
+    "NoClearance",
     "PlanRepository",
     "PlanStep",
+    "PlannedClearance",
     "Proposal",
     "StoredPlan",
     "active_channel_document",

@@ -10,9 +10,12 @@ from server.config import PlanConfig
 from server.jobs import Job, Jobs
 from server.planning.volume import measure_in_ct
 from server.procedure.ct import CtProvider
+from server.procedure.plan.active_channel import active_channel_document, active_channel_from_document
+from server.procedure.plan.clearance import ActiveBone, PlannedClearance, planned_clearances
 from server.procedure.plan.repository import PlanRepository, StoredPlan
-from server.store import CaseStore
+from server.store import CaseStore, Document
 from tracker.errors import PlanError
+from tracker.navigation.clearance import WallDistanceField
 from tracker.plan import (
     Channel,
     Landmark,
@@ -60,16 +63,27 @@ class PlanStep:
     Args:
         store: Where the plan is stored.
         jobs: Runs the measurement of pedicles.
-        opened: The CT.
+        ct_provider: The CT.
         config: Screw catalogue and margins.
+        bone_wall: Returns the bone around the active channel of this document; None while it is unknown.
     """
 
-    def __init__(self, *, store: CaseStore, jobs: Jobs, ct_provider: CtProvider, config: PlanConfig) -> None:
+    def __init__(
+        self,
+        *,
+        store: CaseStore,
+        jobs: Jobs,
+        ct_provider: CtProvider,
+        config: PlanConfig,
+        bone_wall: Callable[[Document], WallDistanceField | None],
+    ) -> None:
         self.repository = PlanRepository(store, ct_provider)
+        self._store = store
+        self._bone_wall = bone_wall
         self._jobs = jobs
         self._ct_provider = ct_provider
         self._front_margin_mm = config.front_margin_mm
-        self._wall_margin_mm = config.wall_margin_mm
+        self.wall_margin_mm = config.wall_margin_mm
         self.catalogue = ScrewCatalogue(
             diameters_mm=tuple(config.screw_diameters_mm), lengths_mm=tuple(config.screw_lengths_mm)
         )
@@ -148,7 +162,10 @@ class PlanStep:
     def lay_channel(
         self, name: str, side: Side, ends: tuple[Sequence[float], Sequence[float], float] | None, by: Author
     ) -> StoredPlan:
-        """Place the channel of the measured pedicle, or set it by hand: ends in LPS mm, diameter in mm."""
+        """Place the channel of the measured pedicle, or set it by hand: ends in LPS mm, diameter in mm.
+
+        A channel along the pedicle gets the proposed screw, unless it has one or none fits.
+        """
         channel: Channel | None = None
         if ends is not None:
             channel = channel_from_points(
@@ -157,14 +174,25 @@ class PlanStep:
                 target_lps_mm=ends[1],
                 diameter_mm=ends[2],
             )
-        return self._change(
-            by,
-            lambda plan, volume: _rejected_odd(
+
+        def laid(plan: PlanDocument, volume: Volume) -> PlanDocument:
+            changed = _rejected_odd(
                 changes.with_channel(
                     plan, name, side, channel, volume=volume, front_margin_mm=self._front_margin_mm
                 )
-            ),
-        )
+            )
+            vertebra = changes.vertebra_named(changed, name)
+            if ends is not None or changes.channel_of(vertebra, side).screws:
+                return changed
+            try:
+                size_mm = self._proposed(changed, name, side)
+            except PlanError as error:
+                if error.code != "NO_SCREW_FITS":
+                    raise
+                return changed
+            return changes.with_screw(changed, name, side, size_mm, volume=volume)
+
+        return self._change(by, laid)
 
     def remove_channel(self, name: str, side: Side, by: Author) -> StoredPlan:
         """Remove the channel of this side; raises PlanError CHANNEL_MISSING."""
@@ -201,6 +229,22 @@ class PlanStep:
         return self._change(
             by, lambda plan, volume: changes.with_screw(plan, name, side, None, volume=volume)
         )
+
+    def clearances(self) -> tuple[StoredPlan, Sequence[PlannedClearance]]:
+        """Return the newest plan and the clearance of each screw in it, by depth.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, PLAN_MISSING.
+        """
+        stored = self.repository.latest()
+        document = None
+        if stored.active is not None:
+            document = active_channel_document(self._store, stored.document.case_id)
+        wall = None if document is None else self._bone_wall(document)
+        if document is None or wall is None:
+            return stored, tuple(planned_clearances(stored.plan, None))
+        bone = ActiveBone(active=active_channel_from_document(document), wall=wall)
+        return stored, tuple(planned_clearances(stored.plan, bone))
 
     def propose_slice(self, name: str) -> Proposal:
         """Return the slice nearest to the isthmuses of a vertebra; raises PlanError NO_PEDICLE_MEASURED."""
@@ -264,7 +308,7 @@ class PlanStep:
             changes.channel_of(vertebra, side).channel,
             changes.pedicle_of(vertebra, side).used,
             self.catalogue,
-            wall_margin_mm=self._wall_margin_mm,
+            wall_margin_mm=self.wall_margin_mm,
             front_margin_mm=self._front_margin_mm,
         )
 

@@ -30,7 +30,7 @@ def plan_both_pedicles(tablet: Tablet, truth: dict[str, Any]) -> None:
 
 
 def moved_and_undone(tablet: Tablet) -> None:
-    """Move and save a channel by mistake, undo it, and choose it again."""
+    """Move and save a channel by mistake, undo, redo and undo it again by keyboard, and choose it again."""
 
     def entry() -> Any:  # noqa: ANN401  JSON
         (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
@@ -48,12 +48,19 @@ def moved_and_undone(tablet: Tablet) -> None:
     tablet.sees("move-channel")
     assert np.array(entry()) - before == pytest.approx([1.0, 0.0, 0.0], abs=1e-6)
     assert _plan(tablet)["active_channel"] is None
-    # Only its own answer, because the page also reports every few seconds whether it can sound an alarm.
-    with tablet.page.expect_response(
-        lambda answer: answer.request.method == "PUT" and answer.url.endswith("/api/plan")
+    moved = entry()
+    for act, expected in (
+        (lambda: tablet.tap("undo"), before),
+        (lambda: tablet.tap("redo"), moved),
+        (lambda: tablet.page.keyboard.press("Control+z"), before),
     ):
-        tablet.tap("undo")
-    assert entry() == pytest.approx(before, abs=1e-9)
+        # Only its own answer, because the page also reports every few seconds whether it can sound an alarm.
+        with tablet.page.expect_response(
+            lambda answer: answer.request.method == "PUT" and answer.url.endswith("/api/plan")
+        ):
+            act()
+        assert entry() == pytest.approx(expected, abs=1e-9)
+        expect(tablet.page.get_by_test_id("redo" if expected is before else "undo")).to_be_enabled()
     tablet.tap("activate")
     tablet.sees("is-active")
 
@@ -76,11 +83,12 @@ def with_landmarks(tablet: Tablet, truth: dict[str, Any]) -> None:
     cross = _cross(tablet)
     # The button moves when the catalogue has loaded.
     tablet.reads("landmark-count", "needed at least")
-    tablet.tap("set-landmark")
-    tablet.page.get_by_role("button", name="spinous process, upper end").tap()
-    tablet.reads("landmark-count", "1 set · needed at least 3")
-    (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
-    assert vertebra["landmarks"][0]["point_lps_mm"] == pytest.approx(cross, abs=0.06)
+    with tablet.uncounted():
+        tablet.tap("set-landmark")
+        tablet.page.get_by_role("button", name="spinous process, upper end").tap()
+        tablet.reads("landmark-count", "1 set · needed at least 3")
+        (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
+        assert vertebra["landmarks"][0]["point_lps_mm"] == pytest.approx(cross, abs=0.06)
     tablet.tap("rehearsed-landmarks")
     tablet.reads("landmark-count", f"{len(truth['landmarks']) + 1} set")
     tablet.looked_at("plan-landmarks")
@@ -89,15 +97,16 @@ def with_landmarks(tablet: Tablet, truth: dict[str, Any]) -> None:
 def _measured_where_it_is(tablet: Tablet, side: str, channel: dict[str, Any]) -> None:
     """Tap a pedicle, measure it, lay its channel and use the proposed screw."""
     tablet.tap("part-pedicle")
-    tablet.page.get_by_test_id("side").get_by_text(side.capitalize(), exact=True).tap()
+    tablet.tap_on(tablet.page.get_by_test_id("side").get_by_text(side.capitalize(), exact=True), side)
     entry, target = np.array(channel["entry_lps_mm"]), np.array(channel["target_lps_mm"])
     _put_cross(tablet, entry + 0.35 * (target - entry))
     tablet.tap("measure")
     tablet.sees("pedicle-numbers")
     expect(tablet.page.get_by_test_id("pedicle-numbers")).to_be_in_viewport()
     tablet.tap("lay-channel")
-    tablet.tap("propose-screw")
     tablet.reads("screw-numbers", "Gertzbein-Robbins A")
+    tablet.reads("clearance", "to the pedicle's measured wall")
+    expect(tablet.page.locator(".planes-large [data-clearance=ample]").first).to_be_attached()
     (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
     laid = next(one for one in vertebra["channels"] if one["side"] == side)["channel"]
     assert np.linalg.norm(
@@ -121,6 +130,7 @@ def _put_cross(tablet: Tablet, wanted: Any) -> None:  # noqa: ANN401  an array
     page.touchscreen.tap(
         place["x"] + place["width"] / 2 + away_px[0], place["y"] + place["height"] / 2 + away_px[1]
     )
+    tablet.taps.append("point")
     _slice_stands(tablet)
     for axis, (less, more) in enumerate((("cross-left", "cross-right"), ("cross-up", "cross-down"))):
         for _ in range(6):

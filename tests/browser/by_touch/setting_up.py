@@ -16,15 +16,20 @@ def open_case(tablet: Tablet, name: str) -> None:
     tablet.tap("step-case")
     expect(page.get_by_role("heading", name="Begin with a case")).to_be_visible()
     tablet.looked_at("case-first")
-    page.get_by_label("Name of the case").fill(name)
-    page.get_by_role("button", name="Create and open").tap()
+    tablet.type_into("Name of the case", name)
+    tablet.tap_on(page.get_by_role("button", name="Create and open"), "create")
     tablet.reads("opened-case", name)
     tablet.looked_at("case-open")
 
 
-def play(tablet: Tablet, scene: str) -> None:
-    """Play a scene of the rehearsal, as on the case page."""
-    tablet.tap("step-case")
+def play(tablet: Tablet, scene: str, *, step: str) -> None:
+    """Open the page of a step, and play a scene of the rehearsal there."""
+    tablet.tap(f"step-{step}")
+    change_scene(tablet, scene)
+
+
+def change_scene(tablet: Tablet, scene: str) -> None:
+    """Play another scene on the present page."""
     tablet.tap(f"scene-{scene}")
     tablet.finds(f"scene-{scene}", "aria-pressed", "true")
     expect(tablet.page.locator("[data-begun]")).to_have_attribute(
@@ -43,8 +48,7 @@ def board_views(rehearsal: RehearsalConfig) -> list[FilePayload]:
 def calibrate_camera(tablet: Tablet, sent: Sequence[FilePayload]) -> None:
     """Collect views of the board, some captured automatically and the others sent as files, and calibrate."""
     page = tablet.page
-    play(tablet, "board")
-    tablet.tap("step-camera")
+    play(tablet, "board", step="camera")
     tablet.sees("marker-drill")
     tablet.looked_at("camera-board")
     tablet.tap("collect")
@@ -66,17 +70,14 @@ def calibrate_camera(tablet: Tablet, sent: Sequence[FilePayload]) -> None:
 
 def calibrate_tool(tablet: Tablet) -> None:
     """Calibrate the tip by pivoting and the axis by spinning."""
-    page = tablet.page
-    play(tablet, "pivot")
-    tablet.tap("step-tool")
+    play(tablet, "pivot", step="tool")
     tablet.looked_at("tool-none")
     tablet.tap("begin-new")
-    page.get_by_label("Diameter (mm)").fill("4")
-    page.get_by_label("Length (mm)").fill("118")
+    tablet.type_into("Diameter (mm)", "4")
+    tablet.type_into("Length (mm)", "118")
     _keep_when_enough(tablet, named="tool-pivot")
     tablet.reads("tool-drill", "The axis is not known yet")
-    play(tablet, "spin")
-    tablet.tap("step-tool")
+    change_scene(tablet, "spin")
     tablet.tap("begin-spin")
     _keep_when_enough(tablet, named="tool-spin")
     tablet.looked_at("tool-calibrated")

@@ -12,6 +12,7 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from server.scene import scene as scene_module
+from server.scene.views import first_view
 from tests.server.scene.scene_theatre import Running, Theatre, running
 
 pytestmark = pytest.mark.browser
@@ -75,6 +76,40 @@ def uncovered(page: Page) -> None:
 def orange_px(image: npt.NDArray[np.uint8]) -> int:
     blue, green, red = (image[..., channel].astype(int) for channel in range(3))
     return int(((red > 150) & (green > 70) & (green < red - 40) & (blue < green - 40)).sum())
+
+
+def test_a_click_on_the_bone_is_reported_as_its_point_in_the_vertebra(
+    browser: Browser, theatre: Theatre
+) -> None:
+    view = first_view(theatre.setup, theatre.surface)
+    with running(theatre) as server:
+        page = opened(browser, server.address)
+        with fed(server, theatre):
+            reported(page, "m.image_number >= 5")
+            uncovered(page)
+            # A drag turns the view and marks nothing, as a click beside the bone.
+            page.mouse.click(5, 5)
+            page.mouse.move(320, 240)
+            page.mouse.down()
+            page.mouse.move(330, 240, steps=3)
+            page.mouse.move(320, 240, steps=3)
+            page.mouse.move(335, 240, steps=3)
+            page.mouse.up()
+            page.evaluate("scene.contentWindow.postMessage({kind: 'coaxial-view', view: 'behind'})")
+            reported(page, f"m.image_number >= {page.evaluate('received.at(-1).image_number')} + 10")
+            # The view looks at the middle of the page.
+            page.mouse.click(320, 240)
+            reported(page, "m.kind === 'coaxial-bone-point'")
+            points = page.evaluate("received.filter((m) => m.kind === 'coaxial-bone-point')")
+        page.close()
+    assert len(points) == 1
+    point_mm = np.array(points[0]["point_in_vertebra_mm"])
+    vertices_mm = theatre.surface.vertices_mm
+    middle_mm, half_mm = vertices_mm.mean(axis=0), np.ptp(vertices_mm, axis=0) / 2
+    assert np.max(np.abs(point_mm - middle_mm) / half_mm) == pytest.approx(1.0, abs=1e-3)
+    way = view.look_at_mm - view.position_mm
+    aside_mm = np.linalg.norm(np.cross(point_mm - view.position_mm, way)) / np.linalg.norm(way)
+    assert aside_mm < 0.5
 
 
 def test_the_drill_is_drawn_reported_and_hidden(browser: Browser, theatre: Theatre) -> None:

@@ -5,7 +5,7 @@ import os
 import re
 import socket
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from time import monotonic
 
@@ -20,6 +20,7 @@ from websockets.typing import Subprotocol
 from server.live import Instant
 from server.scene import scene as scene_module
 from server.scene.gate import Verdict
+from server.scene.marks import Mark
 from server.scene.stage import Stage
 from tests.server.scene.packets import viser_messages
 from tests.server.scene.scene_theatre import Running, Theatre, running
@@ -111,9 +112,9 @@ def test_nothing_is_drawn_without_viewers_and_nothing_old_remains_for_the_next_o
     cleared = threading.Event()
     show, show_nothing = Stage.show, Stage.show_nothing
 
-    def note(stage: Stage, instant: Instant) -> None:
+    def note(stage: Stage, instant: Instant, marks: Sequence[Mark]) -> None:
         shown.append(instant.sequence)
-        show(stage, instant)
+        show(stage, instant, marks)
 
     def clear(stage: Stage) -> None:
         show_nothing(stage)
@@ -154,10 +155,10 @@ def test_one_bad_instant_hides_the_drill_and_the_next_is_shown(
 ) -> None:
     show = Stage.show
 
-    def stumble(stage: Stage, instant: Instant) -> None:
+    def stumble(stage: Stage, instant: Instant, marks: Sequence[Mark]) -> None:
         if instant.sequence == 1:
             raise ValueError("a number that is none")
-        show(stage, instant)
+        show(stage, instant, marks)
 
     monkeypatch.setattr(Stage, "show", stumble)
     with running(theatre, stale_after_ms=60_000) as server, viewer(server) as line:

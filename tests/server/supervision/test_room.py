@@ -1,11 +1,11 @@
-"""The room without a network: unique users, marks that expire with their image, rate limits."""
+"""The room without a network: unique users, marks that expire with their image or CT, rate limits."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import pytest
 
 from server.security import Person, Role
-from server.supervision.marks import MAX_DRAWINGS_PER_PERSON, MAX_POINTS_PER_DRAWING, Moment, Shape
+from server.supervision.marks import MAX_DRAWINGS_PER_PERSON, MAX_POINTS_PER_DRAWING, CutPlane, Moment, Shape
 from server.supervision.participants import ConnectionState, RoomSession, View
 from server.supervision.room import MARKS_AT_ONCE, Room, RoomFull, RoomPolicyViolation, ShownImage
 from server.supervision.room_updates import RoomState, RoomUpdate, SentState
@@ -15,6 +15,12 @@ ITO = Person(id="o1", name="M. Ito", role=Role.OPERATOR)
 GUEST = Person(id="v1", name="Guest", role=Role.VIEWER)
 SCREEN = Person(id="t1", name="Theatre 3", role=Role.SCREEN)
 FADES_S = 20.0
+AXIAL = CutPlane(
+    ct_id="ct-1",
+    origin_in_vertebra_mm=(-20.0, -30.0, 5.0),
+    right_in_vertebra=(1.0, 0.0, 0.0),
+    down_in_vertebra=(0.0, 1.0, 0.0),
+)
 
 
 @dataclass(slots=True)
@@ -30,13 +36,13 @@ class Scene:
 
     @property
     def shown(self) -> ShownImage:
-        return ShownImage(moment=self.moment, size_wh_px=(1280, 720))
+        return ShownImage(moment=self.moment, size_wh_px=(1280, 720), ct_id=AXIAL.ct_id)
 
     def enter(self, person: Person, view: View = View.SUPERVISOR) -> RoomSession:
         return self.room.enter(person, view, now_s=self.now_s, at=f"at {self.now_s:g}")
 
-    def point(self, session: RoomSession, at_px: tuple[float, float] = (10.0, 20.0)) -> None:
-        self.room.point(session, at_px, self.moment, self.shown, now_s=self.now_s)
+    def point(self, session: RoomSession, at: tuple[float, float] = (10.0, 20.0)) -> None:
+        self.room.point(session, at, self.moment, self.shown, now_s=self.now_s)
 
     def draw(self, session: RoomSession, key: int = 1, shape: Shape = Shape.PEN, points: int = 2) -> bool:
         line = [(10.0 + n, 20.0) for n in range(points)]
@@ -112,7 +118,7 @@ def test_a_pointer_goes_two_seconds_after_its_last_move(scene: Scene) -> None:
     scene.now_s += 1.9
     scene.point(session, (30.0, 40.0))
     scene.now_s += 1.9
-    assert [one.at_px for one in scene.room.marks.pointers(scene.now_s)] == [(30.0, 40.0)]
+    assert [one.at for one in scene.room.marks.pointers(scene.now_s)] == [(30.0, 40.0)]
     scene.now_s += 0.2
     assert scene.room.marks.pointers(scene.now_s) == ()
 
@@ -135,6 +141,60 @@ def test_a_drawing_goes_with_the_image_that_it_was_made_on(scene: Scene) -> None
     assert scene.drawn == ["1-1"]
     scene.now_s += 0.2
     assert scene.drawn == []
+
+
+def test_marks_on_a_cut_have_their_plane_and_expire_like_those_on_the_video(scene: Scene) -> None:
+    session = scene.enter(SATO)
+    # Also left of and above the origin of the plane, where no pixel of an image is.
+    assert scene.room.draw(
+        session, 1, Shape.PEN, [(-3.0, -4.5)], scene.moment, scene.shown, plane=AXIAL, now_s=scene.now_s
+    )
+    scene.room.extend(session, 1, [(-3.0, 5.0)], scene.shown, now_s=scene.now_s)
+    scene.room.point(session, (2.0, -1.0), scene.moment, scene.shown, plane=AXIAL, now_s=scene.now_s)
+    (drawing,) = scene.room.marks.drawings(scene.now_s)
+    assert (drawing.plane, drawing.points) == (AXIAL, [(-3.0, -4.5), (-3.0, 5.0)])
+    (pointer,) = scene.room.marks.pointers(scene.now_s)
+    assert (pointer.plane, pointer.at) == (AXIAL, (2.0, -1.0))
+    scene.now_s += FADES_S
+    assert (scene.drawn, scene.room.marks.pointers(scene.now_s)) == ([], ())
+
+
+def test_marks_on_cuts_disappear_with_another_ct_and_those_on_the_video_stay(scene: Scene) -> None:
+    session, other = scene.enter(SATO), scene.enter(ITO, View.OPERATOR)
+    scene.room.draw(
+        session, 1, Shape.PEN, [(1.0, 1.0)], scene.moment, scene.shown, plane=AXIAL, now_s=scene.now_s
+    )
+    scene.room.point(session, (1.0, 1.0), scene.moment, scene.shown, plane=AXIAL, now_s=scene.now_s)
+    scene.draw(session, 2)
+    scene.point(other)
+    scene.room.marks.retain_ct("ct-1")
+    assert scene.drawn == ["1-1", "1-2"]
+    scene.room.marks.retain_ct("ct-2")
+    assert scene.drawn == ["1-2"]
+    assert [one.person for one in scene.room.marks.pointers(scene.now_s)] == [ITO]
+    # Points that arrive late for a removed drawing do not start another one.
+    scene.room.extend(session, 1, [(2.0, 2.0)], scene.shown, now_s=scene.now_s)
+    assert scene.drawn == ["1-2"]
+
+
+@pytest.mark.parametrize(
+    ("at_mm", "ct_id", "shown_ct_id"),
+    [
+        pytest.param((1.0, 201.0), "ct-1", "ct-1", id="off-every-cut"),
+        pytest.param((1.0, 1.0), "ct-0", "ct-1", id="of-another-ct"),
+        pytest.param((1.0, 1.0), "ct-1", "", id="without-a-ct"),
+    ],
+)
+def test_what_lies_on_no_cut_is_not_shown(
+    scene: Scene, at_mm: tuple[float, float], ct_id: str, shown_ct_id: str
+) -> None:
+    session, plane = scene.enter(SATO), replace(AXIAL, ct_id=ct_id)
+    shown = replace(scene.shown, ct_id=shown_ct_id)
+    assert not scene.room.draw(
+        session, 1, Shape.PEN, [at_mm], scene.moment, shown, plane=plane, now_s=scene.now_s
+    )
+    scene.room.point(session, at_mm, scene.moment, shown, plane=plane, now_s=scene.now_s)
+    assert (scene.drawn, scene.room.marks.pointers(scene.now_s)) == ([], ())
 
 
 @pytest.mark.parametrize("person", [GUEST, SCREEN])
@@ -233,15 +293,15 @@ def test_a_page_gets_only_what_is_new(scene: Scene) -> None:
     scene.draw(sato, points=3)
     first = scene.update(reported)
     assert first.people is not None
-    assert [(one.from_point, len(one.points_px)) for one in first.extensions] == [(0, 3)]
+    assert [(one.from_point, len(one.points)) for one in first.extensions] == [(0, 3)]
     scene.room.extend(sato, 1, [(1.0, 2.0)], scene.shown, now_s=scene.now_s)
     second = scene.update(reported)
     assert (second.people, second.signable) == (None, None)
-    assert [(one.from_point, list(one.points_px)) for one in second.extensions] == [(3, [(1.0, 2.0)])]
+    assert [(one.from_point, list(one.points)) for one in second.extensions] == [(3, [(1.0, 2.0)])]
     scene.enter(GUEST)
     third = scene.update(reported)
     assert third.people is not None
     assert third.extensions == ()
     assert [one.key for one in third.state.drawings] == ["1-1"]
     late = scene.update(SentState())
-    assert [(one.from_point, len(one.points_px)) for one in late.extensions] == [(0, 4)]
+    assert [(one.from_point, len(one.points)) for one in late.extensions] == [(0, 4)]

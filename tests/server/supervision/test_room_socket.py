@@ -3,6 +3,7 @@
 import json
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -56,7 +57,13 @@ def client(
     app = create_app(AppParts(hub=hub, config=Config()))
     sign_people_in(app)
     snapshot = snapshot_of(size_wh_px=(1280, 720), image_number=500, captured_at_s=time.monotonic())
-    hub.publish(instant_of(1, snapshot=snapshot))
+
+    def navigate_ct(ct_id: str) -> None:
+        shown = replace(snapshot, setup=replace(snapshot.setup, ct_id=ct_id))
+        hub.publish(instant_of(1, snapshot=shown))
+
+    app.state.navigate_ct = navigate_ct
+    navigate_ct("ct-1")
     with TestClient(app, base_url="http://127.0.0.1:8000") as client:
         yield client
 
@@ -89,27 +96,27 @@ def test_a_supervisors_mark_is_shown_in_theatre(page: Callable[..., Page], image
         ("Dr Sato", "supervisor", ["supervisor"], False),
         ("Guest", "viewer", ["theatre"], True),
     ]
-    sato.say(point={"at_px": [640.5, 300], **image})
+    sato.say(point={"at": [640.5, 300], **image})
     (pointer,) = theatre.until(lambda reported: reported["pointers"])["pointers"]
-    assert (pointer["name"], pointer["at_px"], pointer["image_number"]) == ("Dr Sato", [640.5, 300.0], 500)
+    assert (pointer["name"], pointer["at"], pointer["image_number"]) == ("Dr Sato", [640.5, 300.0], 500)
     assert 0.0 <= pointer["still_ms"] < 2000.0
     sato.say(lift=True)
     theatre.until(lambda reported: not reported["pointers"])
-    sato.say(draw={"key": 1, "shape": "pen", "points_px": [[1, 2], [3, 4]], **image})
+    sato.say(draw={"key": 1, "shape": "pen", "points": [[1, 2], [3, 4]], **image})
     (begun,) = theatre.until(lambda reported: reported["grown"])["grown"]
-    assert (begun["from_point"], begun["points_px"]) == (0, [[1.0, 2.0], [3.0, 4.0]])
+    assert (begun["from_point"], begun["points"]) == (0, [[1.0, 2.0], [3.0, 4.0]])
     assert (begun["name"], begun["is_yours"], begun["shape"]) == ("Dr Sato", False, "pen")
     assert 10.0 < begun["left_s"] <= 20.0
-    sato.say(extend={"key": 1, "points_px": [[5, 6]]})
+    sato.say(extend={"key": 1, "points": [[5, 6]]})
     (more,) = theatre.until(lambda reported: reported["grown"])["grown"]
-    assert (more["key"], more["from_point"], more["points_px"]) == (begun["key"], 2, [[5.0, 6.0]])
+    assert (more["key"], more["from_point"], more["points"]) == (begun["key"], 2, [[5.0, 6.0]])
     sato.say(undo=True)
     theatre.until(lambda reported: not reported["drawings"])
 
 
 def test_the_operator_clears_what_others_drew(page: Callable[..., Page], image: dict[str, Any]) -> None:
     sato, ito = page("s1"), page("o1", "operator")
-    sato.say(draw={"key": 7, "shape": "circle", "points_px": [[100, 100], [150, 100]], **image})
+    sato.say(draw={"key": 7, "shape": "circle", "points": [[100, 100], [150, 100]], **image})
     (drawn,) = ito.until(lambda reported: reported["grown"])["grown"]
     assert (drawn["name"], drawn["is_yours"], drawn["shape"]) == ("Dr Sato", False, "circle")
     assert sato.until(lambda reported: reported["drawings"])["drawings"] == [drawn["key"]]
@@ -119,12 +126,39 @@ def test_the_operator_clears_what_others_drew(page: Callable[..., Page], image: 
         [],
     ]
     # None of it returns with the next drawing.
-    sato.say(draw={"key": 8, "shape": "circle", "points_px": [[200, 100], [250, 100]], **image})
+    sato.say(draw={"key": 8, "shape": "circle", "points": [[200, 100], [250, 100]], **image})
     (after,) = ito.until(lambda reported: reported["drawings"])["drawings"]
     assert after != drawn["key"]
 
 
-POINT = {"at_px": [1, 2], "image_number": 1, "captured_at_s": 1.0}
+PLANE = {
+    "ct_id": "ct-1",
+    "origin_in_vertebra_mm": [-20.0, -30.5, 1234.5],
+    "right_in_vertebra": [0.8, 0.6, 0.0],
+    "down_in_vertebra": [-0.6, 0.8, 0.0],
+}
+
+
+def test_a_mark_on_a_cut_is_sent_with_its_plane_until_another_ct_is_navigated(
+    page: Callable[..., Page], image: dict[str, Any], client: TestClient
+) -> None:
+    sato, theatre = page("s1"), page("v1", "theatre")
+    sato.say(point={"at": [-3.5, 12], "plane": PLANE, **image})
+    (pointer,) = theatre.until(lambda reported: reported["pointers"])["pointers"]
+    assert (pointer["at"], pointer["plane"]) == ([-3.5, 12.0], PLANE)
+    sato.say(draw={"key": 1, "shape": "pen", "points": [[-1, 2.5]], "plane": PLANE, **image})
+    sato.say(extend={"key": 1, "points": [[-1, 4]]})
+    (begun,) = theatre.until(lambda reported: reported["grown"])["grown"]
+    assert begun["plane"] == PLANE
+    assert 10.0 < begun["left_s"] <= 20.0
+    sato.say(draw={"key": 2, "shape": "pen", "points": [[1, 2]], **image})
+    theatre.until(lambda reported: len(reported["drawings"]) == 2)
+    client.app.state.navigate_ct("ct-2")  # type: ignore[attr-defined]
+    left = theatre.until(lambda reported: not reported["pointers"])
+    assert left["drawings"] == ["1-2"]
+
+
+POINT = {"at": [1, 2], "image_number": 1, "captured_at_s": 1.0}
 DRAW = {**{key: POINT[key] for key in ("image_number", "captured_at_s")}, "key": 1, "shape": "pen"}
 
 
@@ -139,17 +173,24 @@ DRAW = {**{key: POINT[key] for key in ("image_number", "captured_at_s")}, "key":
         pytest.param("s1", '{"next": true, "undo": true}', "invalid message", id="two things"),
         pytest.param("s1", "{}", "invalid message", id="nothing"),
         pytest.param("s1", '{"next": true, "role": "operator"}', "invalid message", id="something unknown"),
-        pytest.param("s1", '{"point": {"at_px": [NaN, 1]}}', "invalid message", id="no number"),
+        pytest.param("s1", '{"point": {"at": [NaN, 1]}}', "invalid message", id="no number"),
         pytest.param(
-            "s1", json.dumps({"point": {**POINT, "at_px": [1e9, 1]}}), "invalid message", id="far away"
+            "s1", json.dumps({"point": {**POINT, "at": [1e9, 1]}}), "invalid message", id="far away"
+        ),
+        pytest.param("s1", json.dumps({"point": {**POINT, "at": ["1", 1]}}), "invalid message", id="a text"),
+        pytest.param(
+            "s1", json.dumps({"draw": {**DRAW, "points": [[1, 2]] * 61}}), "not", id="too many points"
+        ),
+        pytest.param("s1", json.dumps({"draw": {**DRAW, "points": []}}), "not", id="no points"),
+        pytest.param(
+            "s1",
+            json.dumps({"point": {**POINT, "plane": {**PLANE, "down_in_vertebra": [0.8, 0.6, 0.0]}}}),
+            "orthogonal",
+            id="a plane without directions",
         ),
         pytest.param(
-            "s1", json.dumps({"point": {**POINT, "at_px": ["1", 1]}}), "invalid message", id="a text"
+            "v1", json.dumps({"point": {**POINT, "plane": PLANE}}), "may not mark", id="a viewer on a cut"
         ),
-        pytest.param(
-            "s1", json.dumps({"draw": {**DRAW, "points_px": [[1, 2]] * 61}}), "not", id="too many points"
-        ),
-        pytest.param("s1", json.dumps({"draw": {**DRAW, "points_px": []}}), "not", id="no points"),
         pytest.param("s1", json.dumps({"undo": True}).ljust(1025), "1024", id="too long"),
     ],
 )
@@ -164,7 +205,7 @@ def test_who_violates_the_protocol_is_disconnected_with_a_reason(
 def test_a_flood_of_marks_is_cut_off(page: Callable[..., Page], image: dict[str, Any]) -> None:
     sato = page("s1")
     for _ in range(200):
-        sato.say(point={"at_px": [1, 2], **image})
+        sato.say(point={"at": [1, 2], **image})
     assert "per second" in sato.reason()
 
 

@@ -17,7 +17,13 @@ from tracker.plan import (
     plan_screw,
     propose_screw,
 )
-from tracker.plan.screw import USUAL_CATALOGUE, clearance_of, grade_of_breach, tolerance_of
+from tracker.plan.screw import (
+    USUAL_CATALOGUE,
+    clearance_along,
+    clearance_of,
+    grade_of_breach,
+    tolerance_of,
+)
 
 AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 FORWARDS = np.array([0.0, -1.0, 0.0])
@@ -178,3 +184,54 @@ def test_a_pedicle_tilted_as_a_whole_has_the_same_clearance() -> None:
     room = clearance_of(channel_from_measure("t", turned), turned, diameter_mm=5.0, length_mm=45.0)
     assert room.medial_mm == pytest.approx(straight.medial_mm, abs=1e-6)
     assert room.anterior_mm == pytest.approx(straight.anterior_mm, abs=1e-6)
+
+
+def signed_distance_mm(x_mm: np.ndarray, z_mm: np.ndarray) -> np.ndarray:
+    """Distance of points from the ellipse of the pedicle, positive inside; from its implicit equation."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 20_000)
+    away = np.hypot(x_mm[:, None] - 4.0 * np.cos(angle), z_mm[:, None] - 6.0 * np.sin(angle)).min(axis=1)
+    return np.asarray(np.where((x_mm / 4.0) ** 2 + (z_mm / 6.0) ** 2 < 1.0, away, -away))
+
+
+@pytest.mark.parametrize(
+    ("entry_xz_mm", "target_xz_mm", "least_depth_mm"),
+    [
+        pytest.param((0.0, 0.0), (0.0, 0.0), None, id="on-the-axis"),
+        pytest.param((-1.0, 0.5), (9.0, 6.0), 24.0, id="nearing-the-wall-and-through-it"),
+        pytest.param((7.0, -1.0), (0.0, 2.0), 12.0, id="through-the-wall-and-back-inside"),
+        pytest.param((6.0, 4.0), (8.0, 4.0), None, id="outside"),
+    ],
+)
+def test_clearance_by_depth_is_the_distance_to_the_solid(
+    entry_xz_mm: tuple[float, float], target_xz_mm: tuple[float, float], least_depth_mm: float | None
+) -> None:
+    channel = channel_from_points(
+        "by hand",
+        entry_lps_mm=(entry_xz_mm[0], 15.0, entry_xz_mm[1]),
+        target_lps_mm=(target_xz_mm[0], -30.0, target_xz_mm[1]),
+        diameter_mm=4.0,
+    )
+    long = dataclasses.replace(pedicle(), opens_ahead_mm=9.0)
+    found = clearance_along(channel, long, diameter_mm=5.0, length_mm=45.0)
+    assert found is not None
+    points = channel.entry_in_vertebra_mm + found.depth_mm[:, None] * channel.axis_in_vertebra
+    # From 3 mm behind the isthmus to where the pedicle opens.
+    assert points[[0, -1], 1] == pytest.approx([3.0, -9.0])
+    assert np.diff(found.depth_mm).max() <= 0.5 + 1e-9
+    assert found.clearance_mm == pytest.approx(signed_distance_mm(points[:, 0], points[:, 2]) - 2.5, abs=2e-3)
+    if least_depth_mm is not None:
+        along = float(channel.axis_in_vertebra @ FORWARDS)
+        assert found.min_depth_mm * along == pytest.approx(least_depth_mm, abs=1e-6)
+    # The figures beside it and the grade are of the same walls.
+    figures = clearance_of(channel, long, diameter_mm=5.0, length_mm=45.0)
+    assert max(-found.min_mm, 0.0) == pytest.approx(figures.breach_mm, abs=1e-9)
+    assert found.min_mm == pytest.approx(figures.min_mm, abs=1e-9)
+
+
+def test_clearance_by_depth_is_known_only_where_the_screw_is_in_the_pedicle() -> None:
+    short = clearance_along(shifted(0.0), pedicle(), diameter_mm=5.0, length_mm=14.0)
+    assert short is not None
+    assert short.depth_mm[[0, -1]] == pytest.approx([12.0, 14.0])
+    assert clearance_along(shifted(0.0), pedicle(), diameter_mm=5.0, length_mm=11.0) is None
+    across = channel_from_points("across", entry_lps_mm=(-9, 0, 0), target_lps_mm=(9, 0, 0), diameter_mm=4.0)
+    assert clearance_along(across, pedicle(), diameter_mm=5.0, length_mm=15.0) is None

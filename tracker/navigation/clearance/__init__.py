@@ -17,6 +17,7 @@ from tracker.navigation.clearance.drill import (
     drill_rings,
 )
 from tracker.navigation.clearance.outline_field import channel_distance_field, outline_distance_field
+from tracker.navigation.clearance.planned_screw import screw_clearance_along
 from tracker.navigation.clearance.rings import Rings
 from tracker.navigation.clearance.wall_selection import WallSelection, planned_clearance_mm, select_wall
 
@@ -37,5 +38,6 @@ __all__ = [
     "drill_rings",
     "outline_distance_field",
     "planned_clearance_mm",
+    "screw_clearance_along",
     "select_wall",
 ]

@@ -105,7 +105,7 @@ def gaps_along_mm(channel: Channel, measure: PedicleMeasure) -> tuple[Array, Arr
     """
     places = np.linspace(-HALF_LENGTH_MM, max(measure.opens_ahead_mm, HALF_LENGTH_MM), PLACES)
     slope = float(channel.axis_in_vertebra @ measure.axis_lps)
-    normal = _outward_normals(measure.outline_lps_mm, measure)
+    normal = outward_normals(measure.outline_lps_mm, measure)
     gaps = []
     for along in places:
         centre = measure.isthmus_lps_mm + along * measure.axis_lps
@@ -118,7 +118,8 @@ def gaps_along_mm(channel: Channel, measure: PedicleMeasure) -> tuple[Array, Arr
     return places, np.array(gaps)
 
 
-def _outward_normals(wall: Array, measure: PedicleMeasure) -> Array:
+def outward_normals(wall: Array, measure: PedicleMeasure) -> Array:
+    """Return the unit normals (n, 3) of a closed outline (n, 3), perpendicular to the pedicle's axis."""
     tangent = np.roll(wall, -1, axis=0) - np.roll(wall, 1, axis=0)
     normal = np.cross(tangent, measure.axis_lps)
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
@@ -128,7 +129,7 @@ def _outward_normals(wall: Array, measure: PedicleMeasure) -> Array:
 
 def _towards(measure: PedicleMeasure) -> Array:
     """Return the wall (n,) of each outline point, as an index into `WALLS`, by its normal."""
-    normal = _outward_normals(measure.outline_lps_mm, measure)
+    normal = outward_normals(measure.outline_lps_mm, measure)
     up = np.array([0.0, 0.0, 1.0]) - measure.axis_lps * measure.axis_lps[2]
     up /= np.linalg.norm(up)
     medial = np.cross(up, measure.axis_lps)

@@ -2,8 +2,10 @@ import { useEffectEvent, useLayoutEffect, useRef, useState, type ReactNode } fro
 import { useLive, usePainter } from "../live/LiveContext";
 import type { View } from "../live/view";
 import { formatNumber } from "../live/rounding";
-import { frameOf } from "../operator/plan/slices/place";
+import { frameOf, type PixelGrid } from "../operator/plan/slices/place";
 import { rulerMm } from "../operator/plan/slices/zoom";
+import { DisplayedCut } from "../marks/displayedCut";
+import { MarksLayer } from "../marks/MarksLayer";
 import { figureOf } from "../panes/limits";
 import { clearBitmap } from "../panes/bitmapCanvas";
 import { Pane } from "../panes/Pane";
@@ -49,6 +51,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
   const shown = useRef<Cut | null>(null);
   const size = useRef({ width: 0, height: 0 });
   const limiter = useRef(new PaintRateLimiter());
+  const [marked] = useState(() => new DisplayedCut());
   /** Subject of the painted lines; empty if there are none. */
   const drawnFrom = useRef<readonly unknown[]>([]);
   const drawnAtMs = useRef(-Infinity);
@@ -128,6 +131,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
     if (name === "probe") paintSplit(split.current, reading, texts);
     if (drawn === null) {
       paintOverlay(svg.current, null);
+      marked.update(null);
       drawnFrom.current = [];
       setText(stamp.current, "");
       return;
@@ -139,6 +143,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
       drawnFrom.current = from;
       drawnAtMs.current = now.nowMs;
       const { grid } = drawn;
+      marked.update(markedCut(grid, now));
       const overlay = overlayOf(name, grid, {
         channel: now.newest?.snapshot?.channel ?? null,
         drill: reading === null ? null : displayedDrill(now.numbers),
@@ -181,6 +186,11 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
           <span />
           <b />
         </p>
+        <MarksLayer
+          stage={marked}
+          label={`${t.title[name]}. ${texts.marks.layerCut}`}
+          testId={`marks-${name}`}
+        />
         <p className="cut-stamp" data-testid={`cut-${name}-stamp`} ref={stamp} />
         <p className="cut-plan">{t.plan}</p>
         {name === "probe" ? (
@@ -199,6 +209,15 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
       {name === "probe" && <Split ref={split} />}
     </Pane>
   );
+}
+
+/** What marks on a cut belong to; null without a CT. */
+function markedCut(grid: PixelGrid, { newest }: View): Parameters<DisplayedCut["update"]>[0] {
+  const snapshot = newest?.snapshot ?? null;
+  const ctId = snapshot?.channel?.ct_id ?? null;
+  if (snapshot === null || ctId === null) return null;
+  const { image_number, captured_at_s } = snapshot;
+  return { grid, ctId, moment: { image_number, captured_at_s } };
 }
 
 /** How far ahead of the tip the probe's eye is. */

@@ -1,4 +1,4 @@
-// Inside this provider the video can be pointed at and drawn on; outside, marks are read-only.
+// Inside this provider video and cuts can be pointed at and drawn on; outside, marks are read-only.
 import { createContext, use, useMemo, useState, type ReactNode } from "react";
 import { useRoom } from "../room/RoomContext";
 import { MarksInput, type Tool } from "./marksInput";

@@ -2,6 +2,7 @@ import {
   useEffect,
   useEffectEvent,
   useRef,
+  useState,
   type KeyboardEvent,
   type PointerEvent,
   type ReactNode,
@@ -13,10 +14,11 @@ import { NOBODY } from "../room/roomState";
 import { useTexts } from "../texts/TextsContext";
 import { MarksCanvas } from "./marksCanvas";
 import { useMarking } from "./MarkingContext";
-import { isOnImage, onImage } from "./place";
 import { DisplayedImage } from "./displayedImage";
+import type { MarkStage } from "./markStage";
+import type { Size } from "./place";
 
-/** Step of the arrow keys, as a share of the picture width; five times as much with shift. */
+/** Step of the arrow keys, as a share of the width; five times as much with shift. */
 const KEY_STEP = 0.01;
 const KEYS: Record<string, Point> = {
   ArrowLeft: [-1, 0],
@@ -25,20 +27,35 @@ const KEYS: Record<string, Point> = {
   ArrowDown: [0, 1],
 };
 
-/** Marks of others over the picture; inside a `MarkingProvider` also this user's input. */
-export function MarksLayer(): ReactNode {
+/** Marks on the video. */
+export function VideoMarks(): ReactNode {
+  const texts = useTexts().marks;
+  const [stage] = useState(() => new DisplayedImage());
+  usePainter((view) => {
+    stage.update(view);
+  });
+  return <MarksLayer stage={stage} label={texts.layer} testId="marks" />;
+}
+
+interface MarksLayerProps {
+  stage: MarkStage;
+  label: string;
+  testId: string;
+}
+
+/** Marks of others over a picture; inside a `MarkingProvider` also this user's input. */
+export function MarksLayer({ stage, label, testId }: MarksLayerProps): ReactNode {
   const texts = useTexts().marks;
   const room = useRoom();
   const marking = useMarking();
   const canvas = useRef<HTMLCanvasElement>(null);
   const board = useRef<MarksCanvas | null>(null);
-  const displayed = useRef(new DisplayedImage());
+  /** Place of the pointer on the stage, which the arrow keys move. */
   const key = useRef<Point | null>(null);
   const input = useEffectEvent(() => marking?.input ?? null);
   const ageText = useEffectEvent((seconds: number) => texts.ago.replace("#", String(seconds)));
 
   usePainter((view) => {
-    displayed.current.update(view);
     marking?.input.flush(view.nowMs);
   });
 
@@ -47,7 +64,7 @@ export function MarksLayer(): ReactNode {
     if (element === null) return;
     const painted = new MarksCanvas(
       element,
-      displayed.current,
+      stage,
       () => room?.now() ?? NOBODY,
       () => input(),
       (seconds) => ageText(seconds),
@@ -60,42 +77,60 @@ export function MarksLayer(): ReactNode {
       painted.requestPaint();
     });
     resized.observe(element);
+    const stay = stage.onMove(() => {
+      painted.requestPaint();
+    });
     return () => {
+      stay();
       leave?.();
       resized.disconnect();
       painted.stop();
     };
-  }, [room]);
+  }, [room, stage]);
 
-  const placeOf = (event: PointerEvent): Point | null => {
-    const placement = board.current?.placement ?? null;
+  const placeOf = (event: PointerEvent): Point => {
     const box = canvas.current?.getBoundingClientRect();
-    if (placement === null || box === undefined) return null;
-    const at: Point = [event.clientX - box.left, event.clientY - box.top];
-    const drawing = event.buttons > 0;
-    return drawing || isOnImage(at, placement) ? onImage(at, placement) : null;
+    return [event.clientX - (box?.left ?? 0), event.clientY - (box?.top ?? 0)];
+  };
+  const size = (): Size => board.current?.size ?? { width: 0, height: 0 };
+
+  const point = (place: Point): void => {
+    const { surface } = stage;
+    const at = surface === null ? null : stage.locate(place, size(), surface);
+    if (marking === null || surface === null || at === null) return;
+    key.current = place;
+    marking.input.point(at, surface, performance.now());
+    board.current?.requestPaint();
   };
 
   const move = (event: PointerEvent): void => {
-    const at = placeOf(event);
-    const { moment } = displayed.current;
-    if (marking === null || at === null || moment === null) return;
-    key.current = at;
-    const { tool } = marking;
-    if (tool !== "point" && event.buttons > 0) marking.input.move(at, performance.now());
-    else marking.input.point(at, moment, performance.now());
+    const place = placeOf(event);
+    const drawnOn = marking?.input.drawnOn ?? null;
+    if (drawnOn === null) {
+      const isDragged = event.buttons > 0 && marking?.tool === "point";
+      if (isDragged || (event.buttons === 0 && stage.isOn(place, size()))) point(place);
+      return;
+    }
+    // A drawing stays on what it was started on, even if the picture has moved since.
+    const at = stage.locate(place, size(), drawnOn);
+    if (at === null) return;
+    key.current = place;
+    marking?.input.move(at, performance.now());
     board.current?.requestPaint();
   };
 
   const down = (event: PointerEvent<HTMLCanvasElement>): void => {
-    const at = placeOf(event);
-    const { moment } = displayed.current;
-    if (marking === null || at === null || moment === null || !event.isPrimary || event.button !== 0) return;
+    const place = placeOf(event);
+    const { surface } = stage;
+    const isFirst = event.isPrimary && event.button === 0;
+    if (marking === null || surface === null || !isFirst || !stage.isOn(place, size())) return;
     event.currentTarget.setPointerCapture(event.pointerId);
-    if (marking.tool === "point") marking.input.point(at, moment, performance.now());
+    const at = stage.locate(place, size(), surface);
+    if (at === null) return;
+    if (marking.tool === "point") point(place);
     else {
       marking.input.lift();
-      marking.input.down(marking.tool, at, moment, performance.now());
+      marking.input.down(marking.tool, at, surface, performance.now());
     }
     board.current?.requestPaint();
   };
@@ -107,25 +142,23 @@ export function MarksLayer(): ReactNode {
 
   const steer = (event: KeyboardEvent): void => {
     const step = KEYS[event.key];
-    const { moment, size } = displayed.current;
-    if (marking === null || step === undefined || moment === null) return;
+    if (marking === null || step === undefined || stage.surface === null) return;
     event.preventDefault();
-    const far = KEY_STEP * size.width * (event.shiftKey ? 5 : 1);
-    const [x, y] = key.current ?? [size.width / 2, size.height / 2];
-    const at: Point = [clamped(x + far * step[0], size.width), clamped(y + far * step[1], size.height)];
-    key.current = at;
-    marking.input.point(at, moment, performance.now());
-    board.current?.requestPaint();
+    const { width, height } = size();
+    const far = KEY_STEP * width * (event.shiftKey ? 5 : 1);
+    const [x, y] = key.current ?? [width / 2, height / 2];
+    const place: Point = [x + far * step[0], y + far * step[1]];
+    if (stage.isOn(place, size())) point(place);
   };
 
-  const shared = { className: "marks-layer", "data-testid": "marks", ref: canvas };
+  const shared = { className: "marks-layer", "data-testid": testId, ref: canvas };
   if (marking === null) return <canvas {...shared} aria-hidden="true" />;
   return (
     <canvas
       {...shared}
       data-tool={marking.tool}
       role="application"
-      aria-label={texts.layer}
+      aria-label={label}
       tabIndex={0}
       onPointerMove={move}
       onPointerDown={down}
@@ -139,8 +172,4 @@ export function MarksLayer(): ReactNode {
       onKeyDown={steer}
     />
   );
-}
-
-function clamped(value: number, size: number): number {
-  return Math.min(Math.max(Math.round(value), 0), size - 1);
 }

@@ -4,6 +4,8 @@ import { Live } from "../live/live";
 import type { ClientMessage } from "../room/messages";
 import { DisplayedImage } from "./displayedImage";
 import { MarksInput } from "./marksInput";
+import { markSurfaceAt } from "./cutMarks";
+import { bonePoint } from "./useBoneMarks";
 import { isOnImage, onImage, onStage, placed } from "./place";
 
 const MOMENT = { image_number: 7, captured_at_s: 4 };
@@ -45,7 +47,7 @@ describe("a hand", () => {
     const { made, said: messages } = hand();
     for (let ms = 0; ms < 1000; ms += 5) made.point([ms, 1], MOMENT, ms);
     expect(messages.length).toBeLessThan(25);
-    expect(messages[0]).toEqual({ point: { at_px: [0, 1], ...MOMENT } });
+    expect(messages[0]).toEqual({ point: { at: [0, 1], ...MOMENT } });
   });
 
   test("is sent at its final position", () => {
@@ -56,7 +58,7 @@ describe("a hand", () => {
     expect(messages).toHaveLength(1);
     made.flush(45);
     made.flush(200);
-    expect(messages.slice(1)).toEqual([{ point: { at_px: [2, 2], ...MOMENT } }]);
+    expect(messages.slice(1)).toEqual([{ point: { at: [2, 2], ...MOMENT } }]);
     made.down("pen", [0, 0], MOMENT, 300);
     made.flush(361);
     expect(messages).toHaveLength(3);
@@ -87,7 +89,7 @@ describe("a hand", () => {
     for (let n = 1; n <= 200; n += 1) made.move([n * 3, 0], n * 10);
     made.up(3000);
     const points = messages.flatMap((one) =>
-      "draw" in one ? one.draw.points_px : "extend" in one ? one.extend.points_px : [],
+      "draw" in one ? one.draw.points : "extend" in one ? one.extend.points : [],
     );
     expect(points).toHaveLength(201);
     expect(messages.filter((one) => "draw" in one)).toHaveLength(1);
@@ -102,7 +104,7 @@ describe("a hand", () => {
     const lengths = new Map<number, number>();
     for (const one of messages) {
       const part = "draw" in one ? one.draw : "extend" in one ? one.extend : null;
-      if (part) lengths.set(part.key, (lengths.get(part.key) ?? 0) + part.points_px.length);
+      if (part) lengths.set(part.key, (lengths.get(part.key) ?? 0) + part.points.length);
     }
     expect([...lengths.values()].every((length) => length <= 400)).toBe(true);
     expect(lengths.size).toBe(3);
@@ -120,7 +122,7 @@ describe("a hand", () => {
         draw: {
           key: 1,
           shape: "pen",
-          points_px: [
+          points: [
             [0, 0],
             [10, 0],
             [20, 0],
@@ -145,7 +147,7 @@ describe("a hand", () => {
         draw: {
           key: 1,
           shape: "arrow",
-          points_px: [
+          points: [
             [0, 0],
             [60, 10],
           ],
@@ -157,6 +159,27 @@ describe("a hand", () => {
     made.settle(() => true, 100);
     expect(made.own).toEqual([]);
   });
+
+  test("a click on the bone is a point on the axial plane through it", () => {
+    const { made, said: messages } = hand();
+    const point = bonePoint({ kind: "coaxial-bone-point", point_in_vertebra_mm: [1.234, -2, 1100.5] });
+    if (point === null) throw new Error("no point");
+    made.dot(markSurfaceAt(point, "ct-1", MOMENT), 0);
+    const plane = {
+      ct_id: "ct-1",
+      origin_in_vertebra_mm: [1.23, -2, 1100.5],
+      right_in_vertebra: [1, 0, 0],
+      down_in_vertebra: [0, 1, 0],
+    };
+    expect(messages).toEqual([{ draw: { key: 1, shape: "pen", points: [[0, 0]], plane, ...MOMENT } }]);
+  });
+
+  test.each([null, "text", { kind: "coaxial-scene" }, { kind: "coaxial-bone-point" }])(
+    "another message of the scene (%j) is no click",
+    (data) => {
+      expect(bonePoint(data)).toBeNull();
+    },
+  );
 
   test("drawings that are never confirmed are dropped", () => {
     const { made } = hand(() => false);

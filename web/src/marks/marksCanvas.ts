@@ -1,9 +1,9 @@
 // The canvas of marks, repainted when something moved, came or expired.
 import { prefersReducedMotion } from "./reducedMotion";
 import type { MarksInput } from "./marksInput";
-import { paintMark, paintPointer, type Pen } from "./paint";
-import { placed, type Placement } from "./place";
-import type { DisplayedImage } from "./displayedImage";
+import type { MarkStage } from "./markStage";
+import type { Pen } from "./paint";
+import type { Size } from "./place";
 import type { Mark, RoomState } from "../room/roomState";
 
 /** Start of the fade before a drawing expires. */
@@ -17,14 +17,14 @@ export class MarksCanvas {
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private readonly displayed: DisplayedImage,
+    private readonly stage: MarkStage,
     private readonly room: () => RoomState,
     private readonly input: () => MarksInput | null,
     private readonly ageText: (seconds: number) => string,
   ) {}
 
-  get placement(): Placement | null {
-    return placed(this.displayed.size, { width: this.canvas.clientWidth, height: this.canvas.clientHeight });
+  get size(): Size {
+    return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
   }
 
   /** Paints with the next animation frame. */
@@ -44,13 +44,13 @@ export class MarksCanvas {
 
   private paint(): void {
     clearTimeout(this.timer);
-    const { canvas, placement } = this;
+    const { canvas, stage } = this;
     const context = canvas.getContext("2d");
     if (context === null) return;
     const state = this.room();
     const nowMs = performance.now();
     const you = state.you?.seat ?? 0;
-    const own = this.input()?.own ?? [];
+    const local = this.input()?.own ?? [];
     this.input()?.settle(
       (one) =>
         state.marks.some(
@@ -58,29 +58,32 @@ export class MarksCanvas {
         ),
       nowMs,
     );
-    const pointers = state.pointers.filter((one) => one.seat !== you);
-    canvas.dataset["marks"] = String(state.marks.length);
+    const drawings = state.marks.flatMap((one) => painted(one, stage.drawing(one)));
+    const own = local.flatMap((one) => painted(one, stage.drawing(one)));
+    const pointers = state.pointers
+      .filter((one) => one.seat !== you)
+      .flatMap((one) => painted(one, stage.pointer(one)));
     const pointed = this.input()?.pointerAt(nowMs) ?? null;
+    const paintOwn = pointed === null ? null : stage.pointer(pointed);
+    canvas.dataset["marks"] = String(drawings.length);
     canvas.dataset["pointers"] = String(pointers.length);
-    canvas.dataset["pointed"] = String(pointed !== null);
-    const isEmpty = state.marks.length + own.length + pointers.length === 0 && pointed === null;
+    canvas.dataset["pointed"] = String(paintOwn !== null);
+    const isEmpty = drawings.length + own.length + pointers.length === 0 && paintOwn === null;
     // Clearing an empty canvas would still make the browser compose the whole picture.
     if (isEmpty && this.isEmpty) return;
     this.isEmpty = isEmpty;
     canvas.dataset["empty"] = String(isEmpty);
     this.fit(context);
-    if (placement === null) return;
-    const pen: Pen = { context, placement, width: canvas.clientWidth };
-    for (const mark of state.marks) {
+    const pen: Pen = { context, stage: this.size };
+    const name = state.you?.name ?? "";
+    for (const { one, paint } of drawings) {
       // Local input is ahead of the server and is painted instead of its echo.
-      if (own.some((one) => mark.key === `${you}-${one.key}`)) continue;
-      paintMark(pen, { ...mark, strength: strengthOf(mark, nowMs), age: this.ageOf(mark, nowMs) });
+      if (local.some(({ key }) => one.key === `${you}-${key}`)) continue;
+      paint(pen, { ...one, strength: strengthOf(one, nowMs), age: this.ageOf(one, nowMs) });
     }
-    for (const one of own) {
-      paintMark(pen, { ...one, seat: you, name: state.you?.name ?? "", strength: 1, age: "" });
-    }
-    for (const pointer of pointers) paintPointer(pen, pointer);
-    if (pointed !== null) paintPointer(pen, { ...pointed, seat: you, name: state.you?.name ?? "" });
+    for (const { one, paint } of own) paint(pen, { ...one, seat: you, name, strength: 1, age: "" });
+    for (const { one, paint } of pointers) paint(pen, one);
+    paintOwn?.(pen, { seat: you, name });
     if (!isEmpty) {
       this.timer = setTimeout(() => {
         this.requestPaint();
@@ -111,4 +114,9 @@ export class MarksCanvas {
 function strengthOf(mark: Mark, nowMs: number): number {
   if (prefersReducedMotion()) return 1;
   return Math.min(1, 0.3 + (0.7 * (mark.goesAtMs - nowMs)) / FADES_FOR_MS);
+}
+
+/** A mark with the function that paints it, or nothing if it is not in this picture. */
+function painted<One, Paint>(one: One, paint: Paint | null): { one: One; paint: Paint }[] {
+  return paint === null ? [] : [{ one, paint }];
 }

@@ -1,5 +1,5 @@
-// Turns pointer input into messages. Pure: time and image are arguments.
-import type { Moment, Point, ClientMessage, Shape } from "../room/messages";
+// Turns pointer input into messages. Pure: time and what is marked are arguments.
+import type { CutPlane, MarkSurface, Point, ClientMessage, Shape } from "../room/messages";
 import { POINTER_GOES_AFTER_MS } from "../room/roomState";
 
 export type Tool = "point" | Shape;
@@ -9,6 +9,7 @@ interface LocalMark {
   key: number;
   shape: Shape;
   points: Point[];
+  plane: CutPlane | null;
   /** Number of points that were sent. */
   sentPoints: number;
   endedAtMs: number | null;
@@ -16,16 +17,18 @@ interface LocalMark {
 
 const POINT_EVERY_MS = 45;
 const EXTEND_EVERY_MS = 60;
-/** Closer points are not sent; in image pixels. */
+/** Closer points are not sent. */
 const MIN_STEP_PX = 2.5;
+const MIN_STEP_MM = 0.3;
 /** Limits of the server: points per message and per drawing. */
-const MAX_A_MESSAGE = 50;
+const MAX_A_MESSAGE = 40;
 const MAX_A_DRAWING = 380;
 const FORGOTTEN_AFTER_MS = 3000;
 
 /** Position of this pointer as others see it. */
 interface LocalPointer {
   at: Point;
+  plane: CutPlane | null;
   goesAtMs: number;
 }
 
@@ -35,16 +38,21 @@ export class MarksInput {
   private pointedAtMs = -Infinity;
   private sentAtMs = -Infinity;
   private drawing: LocalMark | null = null;
-  private moment: Moment | null = null;
+  private surface: MarkSurface | null = null;
   /** Position that has not been sent yet. */
-  private pending: { at: Point; moment: Moment } | null = null;
+  private pending: { at: Point; surface: MarkSurface } | null = null;
 
   private localPointer: LocalPointer | null = null;
 
   constructor(private readonly send: (message: ClientMessage) => boolean) {}
 
-  point(at: Point, moment: Moment, nowMs: number): void {
-    this.pending = { at, moment };
+  /** What the drawing in progress was started on; null if there is none. */
+  get drawnOn(): MarkSurface | null {
+    return this.drawing === null ? null : this.surface;
+  }
+
+  point(at: Point, surface: MarkSurface, nowMs: number): void {
+    this.pending = { at, surface };
     this.flush(nowMs);
   }
 
@@ -54,9 +62,12 @@ export class MarksInput {
     if (rests !== null && nowMs - this.pointedAtMs >= POINT_EVERY_MS) {
       this.pointedAtMs = nowMs;
       this.pending = null;
-      const isSent = this.send({ point: { at_px: rests.at, ...rests.moment } });
+      const { at, surface } = rests;
+      const isSent = this.send({ point: { at, ...surface } });
       // What could not be sent is not shown here either.
-      this.localPointer = isSent ? { at: rests.at, goesAtMs: nowMs + POINTER_GOES_AFTER_MS } : null;
+      this.localPointer = isSent
+        ? { at, plane: surface.plane ?? null, goesAtMs: nowMs + POINTER_GOES_AFTER_MS }
+        : null;
     }
     if (drawing?.shape === "pen" && nowMs - this.sentAtMs >= EXTEND_EVERY_MS) this.sendPen(drawing, nowMs);
   }
@@ -72,18 +83,25 @@ export class MarksInput {
     this.send({ lift: true });
   }
 
-  down(shape: Shape, at: Point, moment: Moment, nowMs: number): void {
+  down(shape: Shape, at: Point, surface: MarkSurface, nowMs: number): void {
     this.key += 1;
     this.drawing = {
       key: this.key,
       shape,
       points: shape === "pen" ? [at] : [at, at],
+      plane: surface.plane ?? null,
       sentPoints: 0,
       endedAtMs: null,
     };
-    this.moment = moment;
+    this.surface = surface;
     this.own.push(this.drawing);
     this.sentAtMs = nowMs;
+  }
+
+  /** Draws a single point, at the origin of its plane. */
+  dot(surface: MarkSurface, nowMs: number): void {
+    this.down("pen", [0, 0], surface, nowMs);
+    this.up(nowMs);
   }
 
   move(at: Point, nowMs: number): void {
@@ -94,30 +112,30 @@ export class MarksInput {
       return;
     }
     const last = drawing.points.at(-1);
-    if (last !== undefined && Math.hypot(at[0] - last[0], at[1] - last[1]) < MIN_STEP_PX) return;
+    if (last !== undefined && Math.hypot(at[0] - last[0], at[1] - last[1]) < minStep(drawing)) return;
     drawing.points.push(at);
     this.flush(nowMs);
     if (drawing.points.length < MAX_A_DRAWING) return;
     // A line beyond the limit is split into several drawings.
-    const { moment } = this;
+    const { surface } = this;
     this.up(nowMs);
-    if (moment !== null) this.down("pen", at, moment, nowMs);
+    if (surface !== null) this.down("pen", at, surface, nowMs);
   }
 
   up(nowMs: number): void {
-    const { drawing, moment } = this;
+    const { drawing, surface } = this;
     this.drawing = null;
-    if (drawing === null || moment === null) return;
+    if (drawing === null || surface === null) return;
     drawing.endedAtMs = nowMs;
     if (drawing.shape === "pen") {
       this.sendPen(drawing, nowMs);
       return;
     }
     const [from, to] = drawing.points;
-    const short = !from || !to || Math.hypot(to[0] - from[0], to[1] - from[1]) < 2 * MIN_STEP_PX;
+    const short = !from || !to || Math.hypot(to[0] - from[0], to[1] - from[1]) < 2 * minStep(drawing);
     // A minimal movement is no arrow.
     if (short) this.own.splice(this.own.indexOf(drawing), 1);
-    else this.send({ draw: { key: drawing.key, shape: drawing.shape, points_px: [from, to], ...moment } });
+    else this.send({ draw: { key: drawing.key, shape: drawing.shape, points: [from, to], ...surface } });
   }
 
   undo(): void {
@@ -142,14 +160,18 @@ export class MarksInput {
     this.sentAtMs = nowMs;
     const { key, shape, points } = drawing;
     while (drawing.sentPoints < points.length) {
-      const points_px = points.slice(drawing.sentPoints, drawing.sentPoints + MAX_A_MESSAGE);
+      const part = points.slice(drawing.sentPoints, drawing.sentPoints + MAX_A_MESSAGE);
       const message: ClientMessage =
-        drawing.sentPoints === 0 && this.moment !== null
-          ? { draw: { key, shape, points_px, ...this.moment } }
-          : { extend: { key, points_px } };
+        drawing.sentPoints === 0 && this.surface !== null
+          ? { draw: { key, shape, points: part, ...this.surface } }
+          : { extend: { key, points: part } };
       // Points beyond the limit of a message are sent with the next one.
       if (!this.send(message)) return;
-      drawing.sentPoints += points_px.length;
+      drawing.sentPoints += part.length;
     }
   }
+}
+
+function minStep({ plane }: LocalMark): number {
+  return plane === null ? MIN_STEP_PX : MIN_STEP_MM;
 }

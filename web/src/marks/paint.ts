@@ -1,55 +1,83 @@
 // Paints pointers and drawings with a dark outline, so that they are visible on any picture.
 import type { Point, Shape } from "../room/messages";
-import type { Pointer } from "../room/roomState";
+import type { Mark, Pointer } from "../room/roomState";
 import { colourOf } from "./colours";
-import { onStage, type Placement } from "./place";
+import type { Size } from "./place";
 
 const CASE = "#05090ce6";
 
-interface Painted {
-  seat: number;
-  name: string;
-  shape: Shape;
-  points: readonly Point[];
+export interface PaintedMark extends Pick<Mark, "seat" | "name" | "shape"> {
   /** Opacity: 1 when new, less before it expires. */
   strength: number;
   /** Shown after the name; may be empty. */
   age: string;
 }
 
+export type PaintedPointer = Pick<Pointer, "seat" | "name">;
+
 export interface Pen {
   context: CanvasRenderingContext2D;
-  placement: Placement;
-  /** Width of the stage: text grows with it, to be read from 3 m. */
-  width: number;
+  /** Size of the stage: text grows with its width, to be read from 3 m. */
+  stage: Size;
 }
 
-export function paintMark(pen: Pen, mark: Painted): void {
-  const points = mark.points.map((one) => onStage(one, pen.placement));
-  const first = points[0];
+/** Paints a mark whose points are at these places of the stage. */
+export function paintShape(pen: Pen, mark: PaintedMark, points: readonly Point[]): void {
+  const [first] = points;
   if (first === undefined) return;
+  const line = lineWidth(pen);
+  stroke(pen, mark.seat, mark.strength, (context) => {
+    trace(context, mark.shape, points, line);
+  });
+  paintName(pen, mark, first);
+}
+
+/** Paints a line along these places of the stage; one place is painted as a dot. */
+export function paintLine(pen: Pen, seat: number, strength: number, points: readonly Point[]): void {
+  stroke(pen, seat, strength, (context) => {
+    trace(context, "pen", points, 0);
+  });
+}
+
+/** Name and age of a mark, beside this place of the stage. */
+export function paintName(pen: Pen, { name, age, seat, strength }: PaintedMark, at: Point): void {
+  pen.context.globalAlpha = strength;
+  label(pen, age === "" ? name : `${name} · ${age}`, at, seat);
+  pen.context.globalAlpha = 1;
+}
+
+function lineWidth({ stage }: Pen): number {
+  return Math.max(3.5, stage.width * 0.0045);
+}
+
+function stroke(
+  pen: Pen,
+  seat: number,
+  strength: number,
+  path: (context: CanvasRenderingContext2D) => void,
+): void {
   const { context } = pen;
-  const line = Math.max(3.5, pen.width * 0.0045);
-  context.globalAlpha = mark.strength;
+  const line = lineWidth(pen);
+  context.globalAlpha = strength;
   context.lineCap = context.lineJoin = "round";
   for (const [style, extra] of [
     [CASE, line * 0.9],
-    [colourOf(mark.seat), 0],
+    [colourOf(seat), 0],
   ] as const) {
     context.strokeStyle = style;
     context.lineWidth = line + extra;
     context.beginPath();
-    trace(context, mark.shape, points, line);
+    path(context);
     context.stroke();
   }
-  label(pen, mark.age === "" ? mark.name : `${mark.name} · ${mark.age}`, first, mark.seat);
   context.globalAlpha = 1;
 }
 
-export function paintPointer(pen: Pen, pointer: Pointer): void {
-  const at = onStage(pointer.at, pen.placement);
+/** Paints a pointer at this place of the stage. */
+export function paintPointerAt(pen: Pen, pointer: PaintedPointer, at: Point, strength = 1): void {
   const { context } = pen;
-  const radius = Math.max(8, pen.width * 0.011);
+  const radius = Math.max(8, pen.stage.width * 0.011);
+  context.globalAlpha = strength;
   for (const [style, size] of [
     [CASE, radius * 1.45],
     ["#ffffff", radius * 1.2],
@@ -62,6 +90,7 @@ export function paintPointer(pen: Pen, pointer: Pointer): void {
     context.fill();
   }
   label(pen, pointer.name, [at[0] + radius, at[1] - radius], pointer.seat);
+  context.globalAlpha = 1;
 }
 
 function trace(
@@ -89,7 +118,8 @@ function trace(
 
 /** The name in a dark box above the position, within the stage. */
 function label(pen: Pen, text: string, [x, y]: Point, seat: number): void {
-  const { context, width } = pen;
+  const { context } = pen;
+  const { width } = pen.stage;
   const size = Math.min(Math.max(14, width * 0.019), 38);
   context.font = `650 ${size}px system-ui, sans-serif`;
   context.textBaseline = "middle";

@@ -9,6 +9,7 @@ import { useTexts } from "../texts/TextsContext";
 import { OperatorTop } from "./OperatorTop";
 import { pageAt, PAGES } from "./pages";
 import { useProcedure } from "../app/procedure";
+import { WithStepActions } from "./StepActions";
 import { StepHead } from "./StepHead";
 import { StepRail } from "./StepRail";
 import { useBandHeight } from "./useBandHeight";
@@ -44,7 +45,9 @@ export function OperatorView(): ReactNode {
           ) : (
             <>
               <StepHead page={page} />
-              <page.Page />
+              <WithStepActions key={page.name}>
+                <page.Page />
+              </WithStepActions>
             </>
           )}
         </main>

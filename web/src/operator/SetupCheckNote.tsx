@@ -26,7 +26,7 @@ export function SetupCheckNote(): ReactNode {
       {check.remedies.length > 0 && (
         <>
           <p>{texts.remedies}</p>
-          <ul data-testid="setup-remedies">
+          <ul className="said" data-testid="setup-remedies">
             {check.remedies.map((remedy) => (
               <li key={`${remedy.kind} ${String(remedy.landmarks)}`}>{remedyText(remedy, texts)}</li>
             ))}

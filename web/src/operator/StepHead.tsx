@@ -1,8 +1,8 @@
 import { useEffect, useRef, type ReactNode, type RefObject } from "react";
 import { useLocation } from "wouter";
-import { HelpButton } from "../help/HelpButton";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useTexts } from "../texts/TextsContext";
+import { GatesOpen } from "./navigate/GatesOpen";
 import { NextStep } from "./NextStep";
 import type { OperatorPage } from "./pages";
 import { sentence } from "./parts/format";
@@ -24,16 +24,16 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
   const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, all);
-  // While navigation is allowed, its page lists the passed gates below.
+  // While navigation is allowed, the passed gates say more than the state of the step.
   const isSaidByGates = step?.step === "navigate" && step.state === "done";
   return (
     <header className="step-head" ref={head}>
       <div className="step-title">
         <h2>{texts.page[page.name]}</h2>
-        <HelpButton place={page.name} />
         <NextStep page={page} />
       </div>
       <RejectionNote rejection={rejection} />
+      {isSaidByGates && <GatesOpen />}
       {step !== null && !isSaidByGates && (
         <p className="step-said" data-state={step.state} data-testid="step-said">
           <strong>

@@ -1,7 +1,9 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
+import { HelpButton } from "../help/HelpButton";
 import { ThemeButton } from "../theme/ThemeButton";
 import { useTexts } from "../texts/TextsContext";
+import { sentence } from "./parts/format";
 import { PAGES, type OperatorPage } from "./pages";
 import { useProcedure, type Step } from "../app/procedure";
 import { MARK_OF_STATE } from "./stepMarks";
@@ -9,7 +11,7 @@ import { stateText } from "./stepTexts";
 
 type Mark = Step["state"] | "none";
 
-/** Links to the steps, with their states. */
+/** Links to the steps, with their states, and why one is no longer valid. */
 export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
   const texts = useTexts().operator;
   const { data } = useProcedure();
@@ -36,12 +38,25 @@ export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
                   {step !== null && !step.allowed && ` · ${texts.locked}`}
                   {isNext && ` · ${texts.now}`}
                 </span>
+                {step !== null && isInvalid(step) && (
+                  <span className="rail-why" lang={step.language}>
+                    {sentence(step.message)}
+                  </span>
+                )}
               </Link>
             </li>
           );
         })}
       </ol>
-      <ThemeButton />
+      <div className="rail-more">
+        <ThemeButton />
+        {now !== null && <HelpButton place={now.name} />}
+      </div>
     </nav>
   );
+}
+
+/** Whether a step was done and is not valid now. */
+function isInvalid({ state }: Step): boolean {
+  return state === "failed" || state === "out_of_date" || state === "due";
 }

@@ -9,6 +9,7 @@ const LINES = {
   arrow: "M5 19L19 5M9 5h10v10",
   circle: "M21 12a9 9 0 1 1-18 0a9 9 0 0 1 18 0",
   undo: "M8 4L3 9l5 5M3 9h11a6 6 0 0 1 0 12h-4",
+  redo: "M16 4l5 5l-5 5M21 9H10a6 6 0 0 0 0 12h4",
   turnLeft: "M4 4v6h6M4.5 10A8.5 8.5 0 1 1 4 15",
   turnRight: "M20 4v6h-6M19.5 10A8.5 8.5 0 1 0 20 15",
   sun: "M16 12a4 4 0 1 1-8 0a4 4 0 0 1 8 0M12 2v3M12 19v3M2 12h3M19 12h3M5 5l2 2M17 17l2 2M5 19l2-2M17 7l2-2",

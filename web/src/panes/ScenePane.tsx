@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState, type ReactNode } from "react";
 import type { DrawingBudget } from "../live/budget";
 import { usePainter, useLive } from "../live/LiveContext";
+import { useBoneMarks } from "../marks/useBoneMarks";
 import { formatDuration, formatNumber } from "../live/rounding";
 import { useTexts } from "../texts/TextsContext";
 import { Cover } from "./Cover";
@@ -26,6 +27,7 @@ export function ScenePane({ tabs }: { tabs?: ReactNode }): ReactNode {
   const age = useRef<HTMLSpanElement>(null);
   const frame = useRef<HTMLIFrameElement>(null);
   const limiter = useRef(new PaintRateLimiter());
+  useBoneMarks(frame);
   const sentView = useRef<DrawingBudget | null>(null);
   const [attempt, setAttempt] = useState(0);
   const [chosen, setChosen] = useState<ViewName>("behind");

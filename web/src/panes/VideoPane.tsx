@@ -2,7 +2,7 @@ import { useEffect, useLayoutEffect, useRef, type ReactNode } from "react";
 import { ConnectionNote } from "../live/ConnectionNote";
 import { useLive, usePainter } from "../live/LiveContext";
 import { formatNumber } from "../live/rounding";
-import { MarksLayer } from "../marks/MarksLayer";
+import { VideoMarks } from "../marks/MarksLayer";
 import { useTexts } from "../texts/TextsContext";
 import { Announcer } from "./Announcer";
 import { clearBitmap } from "./bitmapCanvas";
@@ -92,7 +92,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
           role="img"
           aria-label={texts.video.alt}
         />
-        <MarksLayer />
+        <VideoMarks />
         {over}
         <div className="when-stale" data-testid="video-cover">
           <VideoCover cause={cause} problem={problemsOf(view)[0]} />

@@ -14,8 +14,8 @@ const QUIET: RoomMessage = {
 };
 const SATO = { name: "Dr Sato", role: "supervisor", seat: 1, image_number: 7, captured_at_s: 4 } as const;
 
-function grown(from_point: number, points_px: number[][], key = "1-1"): RoomMessage["grown"][number] {
-  return { ...SATO, key, is_yours: false, shape: "pen", left_s: 12, from_point, points_px };
+function grown(from_point: number, points: number[][], key = "1-1"): RoomMessage["grown"][number] {
+  return { ...SATO, key, is_yours: false, shape: "pen", left_s: 12, from_point, points, plane: null };
 }
 
 describe("what a page knows of the room", () => {
@@ -64,7 +64,7 @@ describe("what a page knows of the room", () => {
   });
 
   test("expired marks disappear without a message from the server", () => {
-    const pointer = { ...SATO, at_px: [10, 20], still_ms: 500 };
+    const pointer = { ...SATO, at: [10, 20], plane: null, still_ms: 500 };
     const message = {
       ...QUIET,
       pointers: [pointer],

@@ -1,5 +1,5 @@
 // State of the room. Pure: takes a message and a time, returns the next state.
-import type { Hold, Person, Point, RoomMessage, Shape, Signable, You } from "./messages";
+import type { CutPlane, Hold, Person, Point, RoomMessage, Shape, Signable, You } from "./messages";
 
 /** Same as on the server: a pointer that stops moving expires. */
 export const POINTER_GOES_AFTER_MS = 2000;
@@ -8,6 +8,8 @@ export interface Pointer {
   seat: number;
   name: string;
   at: Point;
+  /** Null on the video. */
+  plane: CutPlane | null;
   goesAtMs: number;
 }
 
@@ -18,6 +20,8 @@ export interface Mark {
   yours: boolean;
   shape: Shape;
   points: readonly Point[];
+  /** Null on the video. */
+  plane: CutPlane | null;
   madeAtMs: number;
   goesAtMs: number;
 }
@@ -51,7 +55,8 @@ export function afterMessage(state: RoomState, message: RoomMessage, nowMs: numb
     pointers: message.pointers.map((one) => ({
       seat: one.seat,
       name: one.name,
-      at: pointOf(one.at_px),
+      at: pointOf(one.at),
+      plane: one.plane,
       goesAtMs: nowMs + POINTER_GOES_AFTER_MS - one.still_ms,
     })),
     marks: marksAfter(state.marks, message, nowMs),
@@ -82,7 +87,8 @@ function marksAfter(marks: readonly Mark[], message: RoomMessage, nowMs: number)
       name: one.name,
       yours: one.is_yours,
       shape: one.shape,
-      points: [...before.slice(0, one.from_point), ...one.points_px.map(pointOf)],
+      points: [...before.slice(0, one.from_point), ...one.points.map(pointOf)],
+      plane: one.plane,
       madeAtMs: goesAtMs - message.fades_after_s * 1000,
       goesAtMs,
     });
@@ -90,6 +96,6 @@ function marksAfter(marks: readonly Mark[], message: RoomMessage, nowMs: number)
   return message.drawings.flatMap((key) => known.get(key) ?? []);
 }
 
-function pointOf(px: readonly number[]): Point {
-  return [px[0] ?? NaN, px[1] ?? NaN];
+function pointOf(sent: readonly number[]): Point {
+  return [sent[0] ?? NaN, sent[1] ?? NaN];
 }

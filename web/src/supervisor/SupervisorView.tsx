@@ -59,18 +59,18 @@ export function SupervisorView(): ReactNode {
         <AlarmsAfterFirstMessage />
         <AlertBand />
         <main className="board">
-          <AfterFirstMessage loading={<LoadingNumbers />}>
-            <NumbersPane />
-          </AfterFirstMessage>
           <MarkingProvider>
+            <AfterFirstMessage loading={<LoadingNumbers />}>
+              <NumbersPane />
+            </AfterFirstMessage>
             <MarksTools />
             <VideoPane />
+            <HoldPanel />
+            <CutsProvider ctOnRequest={!isLoopback(location.hostname)}>
+              <ChosenTile />
+            </CutsProvider>
+            <AgesStrip />
           </MarkingProvider>
-          <HoldPanel />
-          <CutsProvider ctOnRequest={!isLoopback(location.hostname)}>
-            <ChosenTile />
-          </CutsProvider>
-          <AgesStrip />
         </main>
       </div>
       <section className="supervisor-folds" aria-label={texts.theatre.more}>

@@ -19,6 +19,7 @@ from tracker.navigation.clearance import (
     clearance_of_drill,
     drill_rings,
     outline_distance_field,
+    screw_clearance_along,
     select_wall,
 )
 from tracker.navigation.directions import Wall
@@ -264,3 +265,27 @@ def test_a_drill_that_lies_across_or_points_backwards_is_still_measured(medial_d
     clearance = _clearance(pose, ROD_CHANNEL, _field("rod"))
     assert isinstance(clearance.now, NearestWall)
     assert np.isfinite(clearance.now.clearance_mm)
+
+
+@pytest.mark.parametrize("medial_mm", [0.0, 2.0, 4.5])
+def test_the_planned_screw_has_a_clearance_at_each_depth(medial_mm: float) -> None:
+    shift = np.array([-medial_mm, 0.0, 0.0])
+    channel = Channel(
+        name="left",
+        entry_in_vertebra_mm=ROD_CHANNEL.entry_in_vertebra_mm + shift,
+        target_in_vertebra_mm=ROD_CHANNEL.target_in_vertebra_mm + shift,
+        radius_mm=2.0,
+    )
+    found = screw_clearance_along(channel, _field("rod"), diameter_mm=4.0, length_mm=59.0)
+    assert found is not None
+    # From the cortex to the end, where the front wall is 1 mm ahead.
+    assert found.depth_mm[[0, -1]] == pytest.approx([2.5, 59.0], abs=0.6)
+    assert np.diff(found.depth_mm).max() < 1.01
+    side_mm = 5.0 - medial_mm - 2.0
+    ahead_mm = 60.0 - found.depth_mm
+    off_mm = found.clearance_mm - np.minimum(side_mm, ahead_mm)
+    # Interpolation rounds off the ridge between two equally near walls, to the safe side.
+    is_ridge = np.abs(side_mm - ahead_mm) < 0.6
+    assert np.abs(off_mm[~is_ridge]).max() < 0.05
+    assert -0.2 < off_mm.min() <= off_mm.max() < 0.05
+    assert screw_clearance_along(channel, _field("rod"), diameter_mm=4.0, length_mm=1.0) is None

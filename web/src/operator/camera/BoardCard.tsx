@@ -4,6 +4,7 @@ import { postCameraBoard, postCameraCollection } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
+import { StepActions } from "../StepActions";
 import { Card } from "../parts/Card";
 import { saved } from "../parts/saved";
 import { boardOf, isBoard, type Board, type Pattern } from "./board";
@@ -53,16 +54,6 @@ export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): R
       <BoardNumbers board={board} onBoard={onBoard} />
       {!usable && <p className="bad">▲ {texts.boardWrong}</p>}
       <div className="row">
-        <Button
-          size="lg"
-          variant={first ? "filled" : "default"}
-          disabled={!usable}
-          loading={beginning.busy}
-          data-testid="collect"
-          onClick={begin}
-        >
-          {texts.collect}
-        </Button>
         <Button size="lg" variant="default" disabled={!usable} loading={printing.busy} onClick={print}>
           {texts.print}
         </Button>
@@ -79,6 +70,18 @@ export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): R
         />
       </div>
       <p className="soft">{texts.printHint}</p>
+      <StepActions>
+        <Button
+          size="xl"
+          variant={first ? "filled" : "default"}
+          disabled={!usable}
+          loading={beginning.busy}
+          data-testid="collect"
+          onClick={begin}
+        >
+          {texts.collect}
+        </Button>
+      </StepActions>
       <RejectionNote rejection={beginning.rejection ?? printing.rejection} />
     </Card>
   );

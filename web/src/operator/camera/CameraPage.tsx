@@ -9,6 +9,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { useGates } from "../parts/useGates";
 import { useProcedure } from "../../app/procedure";
 import { LatencyCard } from "../latency/LatencyCard";
+import { RehearsalStrip } from "../registration/RehearsalStrip";
 import { Accuracy } from "./Accuracy";
 import { startingBoard, type Board } from "./board";
 import { BoardCard } from "./BoardCard";
@@ -39,17 +40,11 @@ export function CameraPage(): ReactNode {
   const caseId = procedure.data?.case_id ?? null;
   return (
     <div className="beside">
+      <div className="beside-picture">
+        <VideoPane />
+        <RehearsalStrip scenes={["board"]} />
+      </div>
       <div className="cards">
-        <CameraTest />
-        {gates === null ? (
-          <QueryStatus query={gatesQuery} />
-        ) : (
-          <Markers
-            gate={gates.tracker}
-            canAdd={procedure.data === null ? null : caseId !== null}
-            onChange={changed}
-          />
-        )}
         {gates !== null && data === null && <QueryStatus query={query} />}
         {procedure.data !== null && caseId === null && (
           <EmptyState drawing="case" sentence={texts.noCase}>
@@ -58,23 +53,13 @@ export function CameraPage(): ReactNode {
         )}
         {data !== null && gates !== null && caseId !== null && (
           <>
-            {data.collecting ? (
+            {data.collecting && (
               <Collection
                 gates={gates}
                 onCalibrated={() => {
                   setCalibratedHere(true);
                 }}
                 onOver={changed}
-              />
-            ) : (
-              <BoardCard
-                board={board}
-                first={data.calibration === null}
-                onBoard={setBoard}
-                onBegun={() => {
-                  setCalibratedHere(false);
-                  changed();
-                }}
               />
             )}
             {data.calibration !== null && (
@@ -86,6 +71,17 @@ export function CameraPage(): ReactNode {
                 fresh={calibratedHere && !data.collecting ? data.calibration.heading.id : null}
               />
             )}
+            {!data.collecting && (
+              <BoardCard
+                board={board}
+                first={data.calibration === null}
+                onBoard={setBoard}
+                onBegun={() => {
+                  setCalibratedHere(false);
+                  changed();
+                }}
+              />
+            )}
             {data.calibration?.heading.current === true && (
               <>
                 <ReadoutCard board={board} onChange={changed} />
@@ -94,9 +90,18 @@ export function CameraPage(): ReactNode {
             )}
           </>
         )}
+        {gates === null ? (
+          <QueryStatus query={gatesQuery} />
+        ) : (
+          <Markers
+            gate={gates.tracker}
+            canAdd={procedure.data === null ? null : caseId !== null}
+            onChange={changed}
+          />
+        )}
+        <CameraTest />
         <LatencyCard />
       </div>
-      <VideoPane />
     </div>
   );
 }

@@ -9,6 +9,7 @@ import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
 import { isOver, useJob } from "../../rest/useJob";
 import { useTexts } from "../../texts/TextsContext";
+import { StepActions } from "../StepActions";
 import { Card } from "../parts/Card";
 import { Measure } from "../parts/Measure";
 import { sentence } from "../parts/format";
@@ -93,9 +94,12 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
         {enough && <li className="good">✓ {texts.enough}</li>}
       </ul>
       <JobProgress followed={followed} />
-      <div className="row">
+      <StepActions>
+        <ConfirmButton confirmLabel={texts.throwAwaySure} onConfirm={() => void end()} testId="throw-away">
+          {texts.throwAway}
+        </ConfirmButton>
         <Button
-          size="lg"
+          size="xl"
           variant={enough ? "filled" : "default"}
           disabled={data.views.length === 0 || working}
           loading={doing.busy}
@@ -104,10 +108,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
         >
           {enough ? texts.calibrate : texts.calibrateAlready}
         </Button>
-        <ConfirmButton confirmLabel={texts.throwAwaySure} onConfirm={() => void end()} testId="throw-away">
-          {texts.throwAway}
-        </ConfirmButton>
-      </div>
+      </StepActions>
       <RejectionNote rejection={doing.rejection} />
       <SentViews disabled={working} onAdded={refetch} />
     </Card>

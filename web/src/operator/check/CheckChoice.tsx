@@ -5,7 +5,8 @@ import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
-import { LiveStage } from "../registration/LiveStage";
+import { StepActions } from "../StepActions";
+import { WorkPicture } from "../registration/WorkPicture";
 import { interpolate } from "../../texts/interpolate";
 import { plannedVertebrae } from "../registration/planReader";
 import { WhereToTouch } from "../registration/points/WhereToTouch";
@@ -36,10 +37,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
   const touching = tool || first;
   return (
     <div className="work">
-      <div className="work-main">
-        <LiveStage />
-        {landmark !== null && <WhereToTouch name={landmark.name} pointMm={landmark.pointMm} />}
-      </div>
+      <WorkPicture scene="check" />
       <section className="card work-side">
         <h3>{texts.choose}</h3>
         <p>{interpolate(texts.why, { max: maxMm })}</p>
@@ -69,9 +67,12 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
             );
           })}
         </ul>
+        {landmark !== null && <WhereToTouch name={landmark.name} pointMm={landmark.pointMm} />}
         <ToolChoice tool={touching} onTool={setTool} />
         <ToolSeen tool={touching} />
         <RegistrationRejection rejection={beginning.rejection} />
+      </section>
+      <StepActions>
         <Button
           size="xl"
           disabled={landmark === null || touching === ""}
@@ -88,7 +89,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
         >
           {texts.begin}
         </Button>
-      </section>
+      </StepActions>
     </div>
   );
 }

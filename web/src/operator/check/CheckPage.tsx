@@ -8,8 +8,6 @@ import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
 import { usedLandmarks } from "../registration/planReader";
 import { RegistrationRejection } from "../registration/RegistrationRejection";
-import { RehearsalStrip } from "../registration/RehearsalStrip";
-import { TipContact } from "../registration/TipContact";
 import { useActiveProcedures } from "../registration/useActiveProcedures";
 import { CheckChoice } from "./CheckChoice";
 import { CheckDue } from "./CheckDue";
@@ -40,7 +38,6 @@ function Checking({ registrationId }: { registrationId: string }): ReactNode {
   const { check, vertebra } = registration.data;
   return (
     <div className="registration">
-      <RehearsalStrip scenes={["check"]}>{(stored) => <TipContact rehearsal={stored} />}</RehearsalStrip>
       <CheckDue rule={check} fresh={stored === 0 ? null : String(stored)} />
       {running.data === null ? (
         <QueryStatus query={running} Note={RegistrationRejection} />

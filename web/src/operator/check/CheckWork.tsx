@@ -13,8 +13,9 @@ import { useAction } from "../../rest/useAction";
 import { Icon } from "../../panes/Icon";
 import { useTexts } from "../../texts/TextsContext";
 import { useProcedure } from "../../app/procedure";
+import { StepActions } from "../StepActions";
 import { CaptureProgress } from "../registration/CaptureProgress";
-import { LiveStage } from "../registration/LiveStage";
+import { WorkPicture } from "../registration/WorkPicture";
 import { RegistrationRejection } from "../registration/RegistrationRejection";
 import { ToolSeen } from "../registration/ToolSeen";
 import { useMadeBy } from "../registration/useMadeBy";
@@ -50,13 +51,38 @@ export function CheckWork({ onOver, onStored }: CheckWorkProps): ReactNode {
   };
   return (
     <div className="work">
-      <LiveStage />
+      <WorkPicture scene="check" />
       <section className="card work-side">
         <h3>{capture.landmark}</h3>
         <ToolSeen tool={data.tool} />
         <CaptureProgress capture={capture} maxSpreadMm={data.max_spread_mm} />
         {outcome === null ? <p className="quiet">{texts.byEye}</p> : <CheckOutcome outcome={outcome} />}
         <RegistrationRejection rejection={doing.rejection} />
+      </section>
+      <StepActions>
+        <Button
+          size="lg"
+          variant="default"
+          data-testid="check-end"
+          onClick={() => {
+            run(() => deleteRegistrationCheck(), onOver);
+          }}
+        >
+          {texts.other}
+        </Button>
+        <Button
+          size="lg"
+          variant="default"
+          data-testid="check-again"
+          onClick={() => {
+            run(
+              () => postRegistrationCheck({ body: { landmark: capture.landmark, tool: data.tool } }),
+              query.refetch,
+            );
+          }}
+        >
+          <Icon name="undo" /> {texts.again}
+        </Button>
         <Button
           size="xl"
           disabled={outcome === null}
@@ -78,32 +104,7 @@ export function CheckWork({ onOver, onStored }: CheckWorkProps): ReactNode {
         >
           {outcome?.passed === false ? texts.keepFailed : texts.keep}
         </Button>
-        <div className="row">
-          <Button
-            size="lg"
-            variant="default"
-            data-testid="check-again"
-            onClick={() => {
-              run(
-                () => postRegistrationCheck({ body: { landmark: capture.landmark, tool: data.tool } }),
-                query.refetch,
-              );
-            }}
-          >
-            <Icon name="undo" /> {texts.again}
-          </Button>
-          <Button
-            size="lg"
-            variant="default"
-            data-testid="check-end"
-            onClick={() => {
-              run(() => deleteRegistrationCheck(), onOver);
-            }}
-          >
-            {texts.other}
-          </Button>
-        </div>
-      </section>
+      </StepActions>
     </div>
   );
 }

@@ -1,14 +1,13 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import { formatNumber } from "../../live/rounding";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useTexts } from "../../texts/TextsContext";
-import { interpolate } from "../../texts/interpolate";
 import { sentence } from "../parts/format";
+import { StepActions } from "../StepActions";
 import { stateText } from "../stepTexts";
 import { useProcedure, type Step } from "../../app/procedure";
 
-/** Steps that are not valid or due again, with reasons and links; or that all are valid. */
+/** Steps that are not valid or due again, with reasons and links; otherwise the way to another check. */
 export function Gates(): ReactNode {
   const texts = useTexts();
   const procedure = useProcedure();
@@ -17,15 +16,13 @@ export function Gates(): ReactNode {
   // The head of the page states this already.
   if (data.case_id === null) return null;
   const open = data.steps.filter((one) => one.step !== "navigate" && one.state !== "done");
-  const check = data.steps.find((one) => one.step === "check");
   if (open.length === 0)
     return (
-      <p className="good" role="status" data-testid="gates-open">
-        ✓ {texts.navigate.open} {check !== undefined && checkSaid(texts.navigate.checked, check.numbers)}{" "}
+      <StepActions>
         <Link className="big-link" href="/operator/check" data-testid="re-check">
           {texts.navigate.recheck}
         </Link>
-      </p>
+      </StepActions>
     );
   return (
     <section className="card gates" data-testid="gates-shut">
@@ -61,11 +58,4 @@ function groupSteps(steps: readonly Step[]): [Step, ...Step[]][] {
     else groups.push([step]);
   }
   return groups;
-}
-
-/** Landmark and distance of the check; empty if they are missing. */
-function checkSaid(texts: string, { landmark, distance_mm, max_mm }: Step["numbers"]): string {
-  if (typeof landmark !== "string" || typeof distance_mm !== "number" || typeof max_mm !== "number")
-    return "";
-  return interpolate(texts, { landmark, mm: formatNumber(distance_mm, 1), max: formatNumber(max_mm, 1) });
 }

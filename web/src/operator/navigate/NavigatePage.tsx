@@ -22,7 +22,6 @@ export function NavigatePage(): ReactNode {
     <div className="registration" data-testid="navigate" data-may={data?.may_navigate}>
       <MovementWarning />
       <Gates />
-      <SetupCheckNote />
       <div className="board">
         <AfterFirstMessage loading={<LoadingNumbers />}>
           <NumbersPane />
@@ -32,6 +31,7 @@ export function NavigatePage(): ReactNode {
           <ChosenTile />
         </CutsProvider>
       </div>
+      <SetupCheckNote />
       <div className="work">
         <Steadiness />
         <ChannelSwitch />

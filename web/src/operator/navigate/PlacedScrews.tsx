@@ -14,6 +14,7 @@ import {
 } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { interpolate } from "../../texts/interpolate";
+import { StepActions } from "../StepActions";
 import { ConfirmButton } from "../parts/ConfirmButton";
 import { formatTime } from "../parts/format";
 import { ConfirmOrCancelButton } from "../registration/ConfirmOrCancelButton";
@@ -203,19 +204,21 @@ function PlaceHere({
           data-testid="placed-length"
         />
       </div>
-      <ConfirmOrCancelButton
-        // The first placement can be withdrawn; another one replaces what is stored.
-        needsConfirmation={channel.placement !== null}
-        confirmLabel={interpolate(texts.replaceSure, { channel: name })}
-        busy={busy}
-        disabled={size === null}
-        testId="place-here"
-        onConfirm={() => {
-          onPlace(size);
-        }}
-      >
-        {interpolate(texts.placeHere, { channel: name })}
-      </ConfirmOrCancelButton>
+      <StepActions>
+        <ConfirmOrCancelButton
+          // The first placement can be withdrawn; another one replaces what is stored.
+          needsConfirmation={channel.placement !== null}
+          confirmLabel={interpolate(texts.replaceSure, { channel: name })}
+          busy={busy}
+          disabled={size === null}
+          testId="place-here"
+          onConfirm={() => {
+            onPlace(size);
+          }}
+        >
+          {interpolate(texts.placeHere, { channel: name })}
+        </ConfirmOrCancelButton>
+      </StepActions>
       <p className="quiet">{texts.hint}</p>
     </div>
   );

@@ -2,18 +2,16 @@ import { Alert, Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { putPlan } from "../../api";
 import { RejectionNote } from "../../rest/RejectionNote";
-import { Icon } from "../../panes/Icon";
 import { useTexts } from "../../texts/TextsContext";
 import { Maker } from "../parts/Maker";
 import { PartTabs } from "./PartTabs";
 import { usePlanning } from "./state/PlanContext";
-import { useWork } from "./state/WorkContext";
+import { UndoRedo } from "./UndoRedo";
 
-/** Tabs, undo, and conflicts of the plan. */
+/** Tabs, undo and redo, and conflicts of the plan. */
 export function PlanBar(): ReactNode {
   const texts = useTexts().plan.bar;
-  const { plan, planRejection, rejection, conflict, canUndo, undo, change, busy, forget } = usePlanning();
-  const { setDraft } = useWork();
+  const { plan, planRejection, rejection, conflict, change, busy, forget } = usePlanning();
   const heading = plan?.heading ?? null;
   const isOld = heading !== null && !heading.current;
   const put = (content: Record<string, unknown>): void => {
@@ -23,18 +21,7 @@ export function PlanBar(): ReactNode {
     <div className="plan-bar">
       <div className="plan-bar-row">
         <PartTabs />
-        <Button
-          size="lg"
-          variant="default"
-          disabled={!canUndo}
-          data-testid="undo"
-          onClick={() => {
-            setDraft(null);
-            undo();
-          }}
-        >
-          <Icon name="undo" /> {texts.undo}
-        </Button>
+        <UndoRedo />
       </div>
       <RejectionNote rejection={planRejection} />
       {isOld && (

@@ -17,7 +17,7 @@ export function MethodChoice(): ReactNode {
   const running = useActiveProcedures().data;
   const begun = { points: running?.points === true, needles: false, surface: running?.sweep === true };
   return (
-    <>
+    <div className="registration">
       <RegistrationNow />
       <SetupCheckNote />
       <p className="quiet">{texts.choice.ends}</p>
@@ -40,6 +40,6 @@ export function MethodChoice(): ReactNode {
           </li>
         ))}
       </ul>
-    </>
+    </div>
   );
 }

@@ -24,7 +24,7 @@ export function RehearsalStrip({ scenes, children }: RehearsalStripProps): React
   const playing = useAction();
   if (data === null) return null;
   return (
-    <aside className="rehearsal" aria-label={texts.title} data-testid="rehearsal">
+    <aside className="rehearsal" aria-label={texts.title} data-testid="rehearsal" data-begun={data.begun}>
       <p>
         <strong>{texts.title}</strong> <small>{texts.hint}</small>
       </p>

@@ -5,6 +5,7 @@ import { getMarkers } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
+import { StepActions } from "../StepActions";
 import { Card } from "../parts/Card";
 import { NAME } from "../parts/name";
 import type { Purpose } from "./toolRecord";
@@ -30,6 +31,19 @@ export function NewTool({ first, usedNames, busy, onBegin }: NewToolProps): Reac
   // The first tool usually has the name of its marker.
   const name = typed ?? (marker !== null && !usedNames.includes(marker) ? marker : "");
   const isNew = !usedNames.includes(name);
+  const begin = (
+    <Button
+      size={first ? "xl" : "lg"}
+      variant={first ? "filled" : "default"}
+      disabled={busy || marker === null || !NAME.test(name) || !isNew}
+      data-testid="begin-new"
+      onClick={() => {
+        onBegin(name, "pivot", marker);
+      }}
+    >
+      {texts.begin.pivot}
+    </Button>
+  );
   return (
     <Card title={first ? texts.firstTitle : texts.newTitle} testId="new-tool">
       {first && <p className="card-lead">{texts.firstLead}</p>}
@@ -65,19 +79,10 @@ export function NewTool({ first, usedNames, busy, onBegin }: NewToolProps): Reac
             value={marker}
             onChange={setChosen}
           />
-          <Button
-            size="lg"
-            variant={first ? "filled" : "default"}
-            disabled={busy || marker === null || !NAME.test(name) || !isNew}
-            data-testid="begin-new"
-            onClick={() => {
-              onBegin(name, "pivot", marker);
-            }}
-          >
-            {texts.begin.pivot}
-          </Button>
+          {!first && begin}
         </div>
       )}
+      {first && markers.length > 0 && <StepActions>{begin}</StepActions>}
     </Card>
   );
 }

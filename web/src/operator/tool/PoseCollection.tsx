@@ -7,11 +7,12 @@ import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
+import { StepActions } from "../StepActions";
 import { Card } from "../parts/Card";
 import { interpolate } from "../../texts/interpolate";
 import { ConfirmButton } from "../parts/ConfirmButton";
 import { useMaker } from "../parts/useMaker";
-import { PoseCollectionMeasures } from "./PoseCollectionMeasures";
+import { PoseCollectionMeasures, UnusedImages } from "./PoseCollectionMeasures";
 import { toolRecordFrom, type KnownTool, type ToolGate } from "./toolRecord";
 import { isShape, Shape, type ShapeMm } from "./Shape";
 
@@ -79,9 +80,12 @@ export function PoseCollection({ tools, gate, onOver }: PoseCollectionProps): Re
         {enough && <li className="good">✓ {texts.enough}</li>}
       </ul>
       {needsShape && <Shape shape={shape} onChange={setShape} />}
-      <div className="row">
+      <StepActions>
+        <ConfirmButton confirmLabel={texts.throwAwaySure} onConfirm={end} testId="throw-away">
+          {texts.throwAway}
+        </ConfirmButton>
         <Button
-          size="lg"
+          size="xl"
           variant={enough ? "filled" : "default"}
           disabled={data.outcome === null || (needsShape && given === null)}
           loading={doing.busy}
@@ -90,11 +94,9 @@ export function PoseCollection({ tools, gate, onOver }: PoseCollectionProps): Re
         >
           {texts.keep[data.purpose]}
         </Button>
-        <ConfirmButton confirmLabel={texts.throwAwaySure} onConfirm={end} testId="throw-away">
-          {texts.throwAway}
-        </ConfirmButton>
-      </div>
+      </StepActions>
       {needsShape && given === null && <p className="soft">{texts.shapeFirst}</p>}
+      <UnusedImages collection={data} />
       <RejectionNote rejection={doing.rejection} />
     </Card>
   );

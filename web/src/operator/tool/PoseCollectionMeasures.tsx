@@ -6,7 +6,7 @@ import type { PoseCollectionState, ToolGate } from "./toolRecord";
 
 const KINDS = ["not_seen", "too_uncertain", "jumped", "nothing_new"] as const;
 
-/** Values of a collection with limits, and unused images by reason. */
+/** Values of a collection with limits. */
 export function PoseCollectionMeasures({
   collection,
   gate,
@@ -18,7 +18,6 @@ export function PoseCollectionMeasures({
   const { outcome, purpose } = collection;
   const tilt = { kind: "min", value: gate.min_tilt_deg } as const;
   const rms = { kind: "max", value: gate.max_rms_3d_mm } as const;
-  const passedOver = KINDS.filter((kind) => (collection.rejected_images[kind] ?? 0) > 0);
   return (
     <>
       <dl className="measures">
@@ -99,14 +98,21 @@ export function PoseCollectionMeasures({
       {collection.outcome_problem !== null && collection.taken > 0 && (
         <p className="soft">{sentence(collection.outcome_problem.message)}</p>
       )}
-      {passedOver.length > 0 && (
-        <p className="soft">
-          {texts.passedOver}:{" "}
-          {passedOver
-            .map((kind) => `${texts.passed[kind]} ${String(collection.rejected_images[kind] ?? 0)}`)
-            .join(" · ")}
-        </p>
-      )}
     </>
+  );
+}
+
+/** Images that gave no pose, by reason. */
+export function UnusedImages({ collection }: { collection: PoseCollectionState }): ReactNode {
+  const texts = useTexts().tool;
+  const kinds = KINDS.filter((kind) => (collection.rejected_images[kind] ?? 0) > 0);
+  if (kinds.length === 0) return null;
+  return (
+    <p className="soft">
+      {texts.passedOver}:{" "}
+      {kinds
+        .map((kind) => `${texts.passed[kind]} ${String(collection.rejected_images[kind] ?? 0)}`)
+        .join(" · ")}
+    </p>
   );
 }

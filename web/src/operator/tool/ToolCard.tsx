@@ -2,6 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import type { HeadingMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
+import { StepActions } from "../StepActions";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
@@ -23,19 +24,43 @@ interface ToolCardProps {
   gate: ToolGate;
   documents: readonly HeadingMessage[] | null;
   busy: boolean;
+  /** Whether its next action is the main button of the page. */
+  hasMainButton: boolean;
   /** Identifies a tool of which something was just saved here. */
   fresh: string | null;
   onBegin: (tool: string, purpose: Purpose, marker: string | null) => void;
 }
 
 /** One tool: calibration values with limits, and available actions. */
-export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCardProps): ReactNode {
+export function ToolCard({
+  tool,
+  gate,
+  documents,
+  busy,
+  hasMainButton,
+  fresh,
+  onBegin,
+}: ToolCardProps): ReactNode {
   const all = useTexts();
   const texts = all.tool;
   const stored = tool.calibration === null ? null : toolRecordFrom(tool.calibration.content);
   const radiusMm = stored?.radiusMm ?? tool.radius_mm;
   const next = nextPurpose(tool);
   const canPivotOnly = tool.calibration?.heading.current !== true;
+  const begin = (purpose: Purpose): ReactNode => (
+    <Button
+      key={purpose}
+      size={purpose === next ? "xl" : "lg"}
+      variant={purpose === next ? "filled" : "default"}
+      disabled={busy || (canPivotOnly && purpose !== "pivot")}
+      data-testid={`begin-${purpose}`}
+      onClick={() => {
+        onBegin(tool.name, purpose, null);
+      }}
+    >
+      {purpose === "pivot" && tool.calibration !== null ? texts.pivotAnew : texts.begin[purpose]}
+    </Button>
+  );
   return (
     <Card title={tool.name} testId={`tool-${tool.name}`} fresh={fresh}>
       {tool.calibration === null && (
@@ -100,22 +125,8 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
         )}
       </dl>
       {stored?.hasAxis === false && <p className="bad">▲ {texts.noAxis}</p>}
-      <div className="row">
-        {PURPOSES.map((purpose) => (
-          <Button
-            key={purpose}
-            size="lg"
-            variant={purpose === next ? "filled" : "default"}
-            disabled={busy || (canPivotOnly && purpose !== "pivot")}
-            data-testid={`begin-${purpose}`}
-            onClick={() => {
-              onBegin(tool.name, purpose, null);
-            }}
-          >
-            {purpose === "pivot" && tool.calibration !== null ? texts.pivotAnew : texts.begin[purpose]}
-          </Button>
-        ))}
-      </div>
+      <div className="row">{PURPOSES.filter((one) => !hasMainButton || one !== next).map(begin)}</div>
+      {hasMainButton && <StepActions>{begin(next)}</StepActions>}
     </Card>
   );
 }

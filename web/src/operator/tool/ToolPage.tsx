@@ -11,6 +11,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { useDocuments } from "../parts/useDocuments";
 import { useGates } from "../parts/useGates";
 import { useProcedure } from "../../app/procedure";
+import { RehearsalStrip } from "../registration/RehearsalStrip";
 import { CertificateCard } from "./CertificateCard";
 import { PoseCollection } from "./PoseCollection";
 import type { Purpose } from "./toolRecord";
@@ -58,6 +59,10 @@ export function ToolPage(): ReactNode {
     );
   return (
     <div className="beside">
+      <div className="beside-picture">
+        <VideoPane />
+        <RehearsalStrip scenes={["pivot", "spin"]} />
+      </div>
       <div className="cards">
         <RejectionNote rejection={beginning.rejection} />
         {data.collecting ? (
@@ -71,6 +76,7 @@ export function ToolPage(): ReactNode {
                 gate={gate}
                 documents={documents}
                 busy={beginning.busy}
+                hasMainButton={tool === data.tools[0]}
                 fresh={storedHere === tool.name ? tool.name : null}
                 onBegin={begin}
               />
@@ -85,7 +91,6 @@ export function ToolPage(): ReactNode {
           </>
         )}
       </div>
-      <VideoPane />
     </div>
   );
 }

@@ -3,13 +3,16 @@ import type { MarksTexts } from "./en";
 export const marksDe: MarksTexts = {
   layer:
     "Das Video. Zum Zeigen darüberfahren, zum Zeichnen ein Werkzeug wählen und ziehen. Die Pfeiltasten bewegen den Zeiger.",
+  layerCut:
+    "Zum Zeigen über den Schnitt fahren, zum Zeichnen ein Werkzeug wählen und ziehen. Die Pfeiltasten bewegen den Zeiger.",
   tools: "Zeigen und zeichnen",
   tool: { point: "Zeigen", pen: "Stift", arrow: "Pfeil", circle: "Kreis" },
   undo: "Rückgängig",
   clear: "Meine löschen",
   clearAll: "Alle löschen",
   ago: "vor # s",
-  seenBy: "Für alle sichtbar, die zusehen.",
+  seenBy:
+    "Für alle sichtbar, die zusehen; auf einem Schnitt in jedem Schnitt bis 2 mm entfernt und in 3-D. Ein Klick auf den Knochen in 3-D markiert einen Punkt.",
   fades: "Der Zeiger verschwindet 2 s nach seiner letzten Bewegung, eine Zeichnung # s nach ihrem Bild.",
   lineGone: "Keine Verbindung: Niemand sieht, was Sie zeigen.",
   noPicture: "Zeichnen ist nur auf einem Live-Bild möglich.",

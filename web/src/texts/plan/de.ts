@@ -22,6 +22,7 @@ export const planDe: PlanTexts = {
   },
   bar: {
     undo: "Rückgängig",
+    redo: "Wiederholen",
     close: "Schließen",
     version: "Version",
     old: {
@@ -56,7 +57,7 @@ export const planDe: PlanTexts = {
     measure: { left: "Linken Pedikel messen", right: "Rechten Pedikel messen" },
     again: { left: "Linken Pedikel neu messen", right: "Rechten Pedikel neu messen" },
     showDoubtful: "Ergebnis anzeigen",
-    layChannel: "Kanal durch den Pedikel legen",
+    layChannel: "Kanal mit Schraube legen",
     numbers: "Maße des Pedikels",
     number: {
       width_mm: "Breite",
@@ -77,7 +78,7 @@ export const planDe: PlanTexts = {
     none: "Der Pedikel ist gemessen, hat aber noch keinen Kanal.",
     notMeasured:
       "Dieser Pedikel ist nicht gemessen. Messen Sie ihn unter Pedikel, oder setzen Sie den Kanal von Hand.",
-    lay: "Durch den Pedikel legen",
+    lay: "Durch den Pedikel legen, mit Schraube",
     byHandHere: "Von Hand setzen, ab dem Kreuz",
     move: "Verschieben …",
     back: "Zurück auf die Pedikelachse",
@@ -120,6 +121,26 @@ export const planDe: PlanTexts = {
       superior: "Kranial",
       inferior: "Kaudal",
       anterior: "Vorn",
+    },
+    least: "Kleinster Abstand",
+    atDepth: "in der Tiefe",
+    against: {
+      pedicle: "zur gemessenen Wand des Pedikels",
+      bone: "zur Oberfläche des Knochens",
+      channel: "zum geplanten Kanal",
+    },
+    clearanceWaiting: "Der Abstand entlang der Schraube wird berechnet …",
+    noClearance: {
+      NO_SCREW: "Keine Schraube gewählt.",
+      NOT_MEASURED: "Kein Abstand: Der Pedikel ist nicht gemessen.",
+      BESIDE_WALL: "Kein Abstand: Kein Teil der Schraube liegt im gemessenen Teil des Pedikels.",
+    },
+    legend: "Abstand entlang der Schraube, wie gezeichnet",
+    level: {
+      ample: "mindestens",
+      low: "unter",
+      breach: "durch die Wand",
+      unknown: "hier ist keine Wand bekannt",
     },
     tolerance: "Spielraum",
     or: "oder",

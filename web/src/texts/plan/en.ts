@@ -21,6 +21,7 @@ export const planEn = {
   },
   bar: {
     undo: "Undo",
+    redo: "Redo",
     close: "Close",
     version: "version",
     old: {
@@ -54,7 +55,7 @@ export const planEn = {
     measure: { left: "Measure left pedicle", right: "Measure right pedicle" },
     again: { left: "Measure left pedicle again", right: "Measure right pedicle again" },
     showDoubtful: "Show the result",
-    layChannel: "Lay the channel along the pedicle",
+    layChannel: "Lay the channel and its screw",
     numbers: "Dimensions of the pedicle",
     number: {
       width_mm: "Width",
@@ -74,7 +75,7 @@ export const planEn = {
     noVertebra: "Name a vertebra under Pedicles first.",
     none: "The pedicle is measured but has no channel yet.",
     notMeasured: "This pedicle is not measured. Measure it under Pedicles, or set the channel by hand.",
-    lay: "Lay it along the pedicle",
+    lay: "Lay it along the pedicle, with its screw",
     byHandHere: "Set by hand, from the cross",
     move: "Move …",
     back: "Back to the pedicle's axis",
@@ -117,6 +118,26 @@ export const planEn = {
       superior: "Cranial",
       inferior: "Caudal",
       anterior: "Anterior",
+    },
+    least: "Least clearance",
+    atDepth: "at a depth of",
+    against: {
+      pedicle: "to the pedicle's measured wall",
+      bone: "to the bone's surface",
+      channel: "to the planned channel",
+    },
+    clearanceWaiting: "Clearance along the screw is being computed …",
+    noClearance: {
+      NO_SCREW: "No screw is chosen.",
+      NOT_MEASURED: "No clearance: the pedicle is not measured.",
+      BESIDE_WALL: "No clearance: no part of the screw lies in the measured part of the pedicle.",
+    },
+    legend: "Clearance along the screw, as drawn",
+    level: {
+      ample: "at least",
+      low: "under",
+      breach: "through the wall",
+      unknown: "no wall known here",
     },
     tolerance: "Room for error",
     or: "or",

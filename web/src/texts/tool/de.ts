@@ -59,9 +59,9 @@ export const toolDe: ToolTexts = {
   checkMax: "Prüfung: größter Abstand",
   checkRms: "Prüfung (3-D-RMS)",
   diameter: "Durchmesser",
-  diameterHint: "Durchmesser von Bohrer oder Ahle an der Spitze, gemessen oder laut Zeichnung",
+  diameterHint: "An der Spitze gemessen",
   length: "Länge",
-  lengthHint: "Von der Spitze bis zum Griff",
+  lengthHint: "Von Spitze bis Griff",
   shapeFirst: "Durchmesser und Länge angeben, dann kann die Spitze übernommen werden.",
   passedOver: "Nicht verwendete Bilder",
   passed: {

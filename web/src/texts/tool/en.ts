@@ -55,9 +55,9 @@ export const toolEn = {
   checkMax: "Tip check: largest distance",
   checkRms: "Tip check (3-D RMS)",
   diameter: "Diameter",
-  diameterHint: "Diameter of the drill or awl at its tip, measured or from its drawing",
+  diameterHint: "Measured at the tip",
   length: "Length",
-  lengthHint: "From the tip to the handle",
+  lengthHint: "From tip to handle",
   shapeFirst: "Enter diameter and length, then the tip can be saved.",
   passedOver: "Images not used",
   passed: {

@@ -11,6 +11,7 @@ import { usePlanning } from "../state/PlanContext";
 import type { PlannedChannel } from "../state/shape";
 import { Stepper } from "../Stepper";
 import { neighbourOf } from "./catalogue";
+import { ClearanceNote } from "./ClearanceNote";
 import { ScrewNumbers } from "./ScrewNumbers";
 
 interface ScrewChoiceProps {
@@ -73,6 +74,7 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
             }}
           />
           <ScrewNumbers screw={screw} />
+          <ClearanceNote vertebra={vertebra} side={planned.side} />
           <div className="buttons">
             <Button
               size="lg"

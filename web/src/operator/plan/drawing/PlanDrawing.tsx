@@ -5,11 +5,13 @@ import { isFlat, type PlaneName } from "../slices/address";
 import type { Projection } from "../slices/projection";
 import { useSlices } from "../slices/SlicesContext";
 import { usePlanning } from "../state/PlanContext";
-import { SIDES, usedPedicle, type Vertebra } from "../state/shape";
+import { SIDES, usedPedicle, type Screw, type Side, type Vertebra } from "../state/shape";
+import type { Clearances } from "../state/useClearances";
 import { useWork } from "../state/WorkContext";
 import { SurfaceDrawing } from "../surface/SurfaceDrawing";
 import { useTriangles } from "../surface/useTriangles";
 import { ChannelDrawing } from "./ChannelDrawing";
+import { partsOf, type Part } from "./clearance";
 import { Cross } from "./Cross";
 import { Handle } from "./Handle";
 import { LandmarksDrawing } from "./LandmarksDrawing";
@@ -52,7 +54,7 @@ function VertebraDrawing({
   vertebra: Vertebra;
   projection: Projection;
 }): ReactNode {
-  const { plan } = usePlanning();
+  const { plan, clearances } = usePlanning();
   const { part, draft } = useWork();
   const active = plan?.active_channel ?? null;
   const [reference] = vertebra.references;
@@ -74,7 +76,7 @@ function VertebraDrawing({
             entry={channel.entry_in_vertebra_mm}
             target={channel.target_in_vertebra_mm}
             radiusMm={channel.radius_mm}
-            screw={screws[0]}
+            screw={partsOfScrew(screws[0], clearances, vertebra.name, side)}
             look={active?.vertebra === vertebra.name && active.side === side ? "active" : "planned"}
           />
         ))}
@@ -84,6 +86,21 @@ function VertebraDrawing({
       <LandmarksDrawing projection={projection} landmarks={vertebra.landmarks} />
     </g>
   );
+}
+
+function partsOfScrew(
+  screw: Screw | undefined,
+  clearances: Clearances | null,
+  vertebra: string,
+  side: Side,
+): { diameter_mm: number; parts: Part[] } | undefined {
+  if (screw === undefined) return undefined;
+  const clearance = clearances?.of(vertebra, side) ?? null;
+  const along = clearance?.kind === "known" ? clearance : null;
+  return {
+    diameter_mm: screw.diameter_mm,
+    parts: partsOf(along, clearances?.marginMm ?? 0, screw.length_mm),
+  };
 }
 
 function DraftDrawing({ plane, projection }: { plane: PlaneName; projection: Projection }): ReactNode {

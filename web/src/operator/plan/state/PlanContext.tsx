@@ -1,11 +1,12 @@
-// The plan: one change at a time, with undo.
+// The plan: one change at a time, with undo and redo.
 import { createContext, use, useCallback, useState, type ReactNode } from "react";
 import { getCasesByCaseIdDocumentsByDocumentId, putPlan } from "../../../api";
 import { Rejection } from "../../../rest/client";
 import { useAction } from "../../../rest/useAction";
 import { useMadeBy } from "./madeBy";
 import { vertebraeOf, type PlanAnswer, type Side, type Vertebra } from "./shape";
-import { lastStep, read, withChange, withoutLast, type Step } from "./undo";
+import { afterRedo, afterUndo, lastStep, read, withChange, type History } from "./undo";
+import { useClearances, type Clearances } from "./useClearances";
 import { usePlan } from "./usePlan";
 
 interface By {
@@ -24,6 +25,8 @@ interface PlanValue {
   /** The selected vertebra; null if there is none. */
   vertebra: Vertebra | null;
   side: Side;
+  /** Clearance of each screw to the wall; null while unknown. */
+  clearances: Clearances | null;
   busy: boolean;
   rejection: Rejection | null;
   /** Who changed the plan in between, after a change here was rejected for it. */
@@ -37,6 +40,8 @@ interface PlanValue {
   by: By;
   canUndo: boolean;
   undo: () => void;
+  canRedo: boolean;
+  redo: () => void;
   forget: () => void;
 }
 
@@ -45,15 +50,16 @@ const STEPS = "coaxial.plan.steps";
 
 export function PlanProvider({ caseId, children }: { caseId: string; children: ReactNode }): ReactNode {
   const { plan, rejection: planRejection, isLoading, take, refetch } = usePlan(caseId);
+  const clearances = useClearances(plan?.heading.id ?? null);
   const doing = useAction();
-  const [steps, setSteps] = useState<Step[]>(() => read(sessionStorage.getItem(`${STEPS}.${caseId}`)));
+  const [history, setHistory] = useState<History>(() => read(sessionStorage.getItem(`${STEPS}.${caseId}`)));
   const [conflict, setConflict] = useState<PlanAnswer["heading"] | null>(null);
   const [chosen, setVertebra] = useState<string | null>(null);
   const [side, setSide] = useState<Side>("left");
   const madeBy = useMadeBy();
 
-  const storeView = (next: Step[]): void => {
-    setSteps(next);
+  const remember = (next: History): void => {
+    setHistory(next);
     sessionStorage.setItem(`${STEPS}.${caseId}`, JSON.stringify(next));
   };
   const version = plan?.heading.version ?? 0;
@@ -76,24 +82,27 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
   const change = async (action: (by: By) => Promise<PlanAnswer>): Promise<boolean> => {
     const made = await run(() => action(by));
     if (made !== null && made.heading.version > version) {
-      storeView(withChange(steps, plan?.heading.id ?? null, made.heading.version));
+      remember(withChange(history, plan?.heading.id ?? null, made.heading.version));
     }
     return made !== null;
   };
   const changedTo = (madeVersion: number, documentBefore: string | null): void => {
-    storeView(withChange(steps, documentBefore, madeVersion));
+    remember(withChange(history, documentBefore, madeVersion));
     void refetch();
   };
-  const step = lastStep(steps, version);
-  const undo = (): void => {
-    if (step === null) return;
+  const toUndo = lastStep(history.done, version);
+  const toRedo = lastStep(history.undone, version);
+  const replace = (documentId: string | null, after: typeof afterUndo): void => {
+    const replaced = plan?.heading.id ?? null;
     void run(async () => {
-      const before = await contentOf(caseId, step.documentId, plan);
-      return putPlan({ body: { ...by, plan: before } });
+      const content = await contentOf(caseId, documentId, plan);
+      return putPlan({ body: { ...by, plan: content } });
     }).then((made) => {
-      if (made !== null) storeView(withoutLast(steps, made.heading.version));
+      if (made !== null) remember(after(history, replaced, made.heading.version));
     });
   };
+  // Undo across CTs would transfer an older plan unseen.
+  const isReplaceable = !doing.busy && plan?.heading.current !== false;
   const { forget: forgetDoing } = doing;
   const forget = useCallback(() => {
     setConflict(null);
@@ -109,19 +118,25 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
     askAgain: () => void refetch(),
     vertebrae,
     side,
+    clearances,
     conflict,
     setVertebra,
     setSide,
     change,
     changedTo,
     by,
-    undo,
+    canUndo: toUndo !== null && isReplaceable,
+    undo: () => {
+      if (toUndo !== null) replace(toUndo.documentId, afterUndo);
+    },
+    canRedo: toRedo !== null && isReplaceable,
+    redo: () => {
+      if (toRedo !== null) replace(toRedo.documentId, afterRedo);
+    },
     forget,
     vertebra: vertebrae.find((one) => one.name === chosen) ?? vertebrae[0] ?? null,
     busy: doing.busy,
     rejection: doing.rejection,
-    // Undo across CTs would transfer an older plan unseen.
-    canUndo: step !== null && !doing.busy && plan?.heading.current !== false,
   };
   return <PlanContext value={value}>{children}</PlanContext>;
 }

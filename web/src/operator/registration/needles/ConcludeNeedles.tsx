@@ -5,6 +5,7 @@ import { postRegistrationNeedlesConclusion } from "../../../api";
 import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
+import { StepActions } from "../../StepActions";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { ConfirmOrCancelButton } from "../ConfirmOrCancelButton";
 import { useMadeBy } from "../useMadeBy";
@@ -60,28 +61,30 @@ export function ConcludeNeedles({
       ) : (
         <p className="quiet">{texts.needles.fitsLive}</p>
       )}
-      <ConfirmOrCancelButton
-        needsConfirmation={isThere}
-        confirmLabel={texts.replaceSure}
-        disabled={disabled || isFrozen}
-        busy={doing.busy}
-        testId="needles-conclude"
-        onConfirm={() => {
-          void doing
-            .run(async () => {
-              const needles = marked.map((one) => ({ entry_is_seen: true, along_sd_px: 1, ...one }));
-              await postRegistrationNeedlesConclusion({
-                body: { ...needleRequestBody(order), overlay, marked: needles, picked, made_by: madeBy },
+      <StepActions>
+        <ConfirmOrCancelButton
+          needsConfirmation={isThere}
+          confirmLabel={texts.replaceSure}
+          disabled={disabled || isFrozen}
+          busy={doing.busy}
+          testId="needles-conclude"
+          onConfirm={() => {
+            void doing
+              .run(async () => {
+                const needles = marked.map((one) => ({ entry_is_seen: true, along_sd_px: 1, ...one }));
+                await postRegistrationNeedlesConclusion({
+                  body: { ...needleRequestBody(order), overlay, marked: needles, picked, made_by: madeBy },
+                });
+              })
+              .then((done) => {
+                procedure.refetch();
+                if (done) navigate("/operator/register");
               });
-            })
-            .then((done) => {
-              procedure.refetch();
-              if (done) navigate("/operator/register");
-            });
-        }}
-      >
-        {children}
-      </ConfirmOrCancelButton>
+          }}
+        >
+          {children}
+        </ConfirmOrCancelButton>
+      </StepActions>
     </div>
   );
 }

@@ -1,6 +1,7 @@
 import { Button, SegmentedControl } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
+import { StepActions } from "../../StepActions";
 import { RehearsalStrip } from "../RehearsalStrip";
 import { StepField } from "../StepField";
 import { viewOfTruth, type RuledView } from "./ruler";
@@ -71,9 +72,11 @@ export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormPro
       />
       <p className="quiet">{texts.said}</p>
       {!done && (
-        <Button size="xl" onClick={onDone} data-testid="ruler-done">
-          {texts.done}
-        </Button>
+        <StepActions>
+          <Button size="xl" onClick={onDone} data-testid="ruler-done">
+            {texts.done}
+          </Button>
+        </StepActions>
       )}
     </section>
   );

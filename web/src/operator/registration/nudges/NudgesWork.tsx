@@ -7,6 +7,7 @@ import { useAction } from "../../../rest/useAction";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
+import { StepActions } from "../../StepActions";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { useMadeBy } from "../useMadeBy";
 import { NudgeLog } from "./NudgeLog";
@@ -68,6 +69,8 @@ export function NudgesWork(): ReactNode {
         <NudgePad kind={kind} disabled={doing.busy} onNudge={nudge} />
         <RegistrationRejection rejection={doing.rejection} />
         {data === null && <QueryStatus query={query} Note={RegistrationRejection} />}
+      </section>
+      <StepActions>
         <Button
           size="lg"
           variant="default"
@@ -79,7 +82,7 @@ export function NudgesWork(): ReactNode {
         >
           <Icon name="undo" /> {texts.nudges.undo}
         </Button>
-      </section>
+      </StepActions>
       {data !== null && <NudgeLog nudges={data.nudges} />}
     </>
   );

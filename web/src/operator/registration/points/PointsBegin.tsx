@@ -3,7 +3,8 @@ import { useState, type ReactNode } from "react";
 import { postRegistrationPoints } from "../../../api";
 import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
-import { LiveStage } from "../LiveStage";
+import { StepActions } from "../../StepActions";
+import { WorkPicture } from "../WorkPicture";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { ToolChoice } from "../ToolChoice";
 import { ToolSeen } from "../ToolSeen";
@@ -18,7 +19,7 @@ export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
   const beginning = useAction();
   return (
     <div className="work">
-      <LiveStage />
+      <WorkPicture scene="landmarks" />
       <div className="work-side">
         <section className="card">
           <h3>{texts.points.before}</h3>
@@ -30,23 +31,25 @@ export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
           <ToolChoice tool={tool} onTool={setChosen} />
           <ToolSeen tool={tool} />
           <RegistrationRejection rejection={beginning.rejection} />
-          <Button
-            size="xl"
-            disabled={tool === ""}
-            loading={beginning.busy}
-            data-testid="points-begin"
-            onClick={() => {
-              void beginning
-                .run(async () => {
-                  await postRegistrationPoints({ body: { tool } });
-                })
-                .then(onBegun);
-            }}
-          >
-            {texts.points.begin}
-          </Button>
         </section>
       </div>
+      <StepActions>
+        <Button
+          size="xl"
+          disabled={tool === ""}
+          loading={beginning.busy}
+          data-testid="points-begin"
+          onClick={() => {
+            void beginning
+              .run(async () => {
+                await postRegistrationPoints({ body: { tool } });
+              })
+              .then(onBegun);
+          }}
+        >
+          {texts.points.begin}
+        </Button>
+      </StepActions>
     </div>
   );
 }

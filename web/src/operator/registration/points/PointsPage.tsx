@@ -1,7 +1,5 @@
 import type { ReactNode } from "react";
 import { QueryStatus } from "../../../rest/QueryStatus";
-import { RehearsalStrip } from "../RehearsalStrip";
-import { TipContact } from "../TipContact";
 import { useActiveProcedures } from "../useActiveProcedures";
 import { PointsBegin } from "./PointsBegin";
 import { PointsWork } from "./PointsWork";
@@ -11,9 +9,6 @@ export function PointsPage(): ReactNode {
   const running = useActiveProcedures();
   return (
     <>
-      <RehearsalStrip scenes={["landmarks"]}>
-        {(rehearsal) => <TipContact rehearsal={rehearsal} />}
-      </RehearsalStrip>
       {running.data === null && <QueryStatus query={running} />}
       {running.data !== null &&
         (running.data.points ? (

@@ -1,3 +1,4 @@
+import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useLocation } from "wouter";
 import { QueryStatus } from "../../../rest/QueryStatus";
@@ -14,7 +15,9 @@ import {
 } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
-import { LiveStage } from "../LiveStage";
+import { Icon } from "../../../panes/Icon";
+import { StepActions } from "../../StepActions";
+import { WorkPicture } from "../WorkPicture";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { ConfirmOrCancelButton } from "../ConfirmOrCancelButton";
 import { useMadeBy } from "../useMadeBy";
@@ -56,67 +59,22 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
     setOrder((before) => before.filter((one) => one !== name));
     run(() => deleteRegistrationPointsCaptures({ query: { landmark: name } }));
   };
+  const capture = (name: string): void => {
+    setPicked(null);
+    setOrder((before) => [...before.filter((one) => one !== name), name]);
+    run(() => postRegistrationPointsCaptures({ body: { landmark: name } }));
+  };
+  const looking = data.capture?.state === "looking";
   const touched = data.landmarks.filter((one) => one.touched).map((one) => one.name);
   const last = order.findLast((name) => touched.includes(name)) ?? touched.at(-1) ?? null;
   return (
     <div className="work">
-      <div className="work-main">
-        <LiveStage />
-        {landmark !== null && <WhereToTouch name={landmark.name} pointMm={landmark.point_lps_mm} />}
-      </div>
+      <WorkPicture scene="landmarks" />
       <div className="work-side">
-        <CapturePanel
-          points={data}
-          wanted={wanted}
-          busy={doing.busy}
-          last={last}
-          onUndo={forget}
-          onCapture={(name) => {
-            setPicked(null);
-            setOrder((before) => [...before.filter((one) => one !== name), name]);
-            run(() => postRegistrationPointsCaptures({ body: { landmark: name } }));
-          }}
-        />
+        <CapturePanel points={data} wanted={wanted} />
+        {landmark !== null && <WhereToTouch name={landmark.name} pointMm={landmark.point_lps_mm} />}
         <RegistrationRejection rejection={doing.rejection ?? query.rejection} />
         <FitPanel points={data} />
-        <div className="row">
-          <ConfirmOrCancelButton
-            needsConfirmation={
-              procedure.data?.steps.some((one) => one.step === "register" && one.state === "done") === true
-            }
-            confirmLabel={texts.replaceSure}
-            disabled={data.missing.length > 0}
-            busy={doing.busy}
-            testId="points-conclude"
-            onConfirm={() => {
-              void doing
-                .run(async () => {
-                  await postRegistrationPointsConclusion({ body: { made_by: madeBy } });
-                })
-                .then((done) => {
-                  procedure.refetch();
-                  if (done) navigate("/operator/register");
-                });
-            }}
-          >
-            {texts.points.conclude}
-          </ConfirmOrCancelButton>
-          <ConfirmOrCancelButton
-            needsConfirmation
-            variant="default"
-            confirmLabel={texts.throwAwaySure}
-            testId="points-end"
-            onConfirm={() => {
-              void doing
-                .run(async () => {
-                  await deleteRegistrationPoints();
-                })
-                .then(onOver);
-            }}
-          >
-            {texts.throwAway}
-          </ConfirmOrCancelButton>
-        </div>
         <LandmarkList
           points={data}
           wanted={wanted}
@@ -127,6 +85,67 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
           }}
         />
       </div>
+      <StepActions>
+        <ConfirmOrCancelButton
+          needsConfirmation
+          variant="default"
+          confirmLabel={texts.throwAwaySure}
+          testId="points-end"
+          onConfirm={() => {
+            void doing
+              .run(async () => {
+                await deleteRegistrationPoints();
+              })
+              .then(onOver);
+          }}
+        >
+          {texts.throwAway}
+        </ConfirmOrCancelButton>
+        <Button
+          size="lg"
+          variant="default"
+          disabled={last === null || looking || doing.busy}
+          data-testid="undo-last"
+          onClick={() => {
+            if (last !== null) forget(last);
+          }}
+        >
+          <Icon name="undo" /> {texts.points.undo}
+        </Button>
+        <ConfirmOrCancelButton
+          needsConfirmation={
+            procedure.data?.steps.some((one) => one.step === "register" && one.state === "done") === true
+          }
+          confirmLabel={texts.replaceSure}
+          disabled={data.missing.length > 0}
+          busy={doing.busy}
+          testId="points-conclude"
+          onConfirm={() => {
+            void doing
+              .run(async () => {
+                await postRegistrationPointsConclusion({ body: { made_by: madeBy } });
+              })
+              .then((done) => {
+                procedure.refetch();
+                if (done) navigate("/operator/register");
+              });
+          }}
+        >
+          {texts.points.conclude}
+        </ConfirmOrCancelButton>
+        <Button
+          size="xl"
+          disabled={wanted === null || looking}
+          variant={data.missing.length > 0 ? "filled" : "default"}
+          loading={doing.busy}
+          data-testid="capture"
+          onClick={() => {
+            if (wanted !== null) capture(wanted);
+          }}
+        >
+          {landmark?.touched === true ? texts.points.captureAgain : texts.points.capture}
+        </Button>
+      </StepActions>
     </div>
   );
 }

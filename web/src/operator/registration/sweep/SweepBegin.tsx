@@ -4,7 +4,8 @@ import { postRegistrationSweep } from "../../../api";
 import { useAction } from "../../../rest/useAction";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
-import { LiveStage } from "../LiveStage";
+import { StepActions } from "../../StepActions";
+import { WorkPicture } from "../WorkPicture";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { ToolChoice } from "../ToolChoice";
 import { ToolSeen } from "../ToolSeen";
@@ -21,7 +22,7 @@ export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
   const registered = procedure?.steps.some((one) => one.step === "register" && one.state === "done") === true;
   return (
     <div className="work">
-      <LiveStage />
+      <WorkPicture scene="sweep" />
       <section className="card work-side">
         <h3>{texts.sweep.before}</h3>
         <ol className="steps">
@@ -33,6 +34,8 @@ export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
         <ToolChoice tool={tool} onTool={setChosen} />
         <ToolSeen tool={tool} />
         <RegistrationRejection rejection={beginning.rejection} />
+      </section>
+      <StepActions>
         <Button
           size="xl"
           disabled={tool === "" || !registered}
@@ -48,7 +51,7 @@ export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
         >
           {texts.sweep.begin}
         </Button>
-      </section>
+      </StepActions>
     </div>
   );
 }

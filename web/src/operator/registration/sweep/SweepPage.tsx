@@ -1,6 +1,5 @@
 import type { ReactNode } from "react";
 import { QueryStatus } from "../../../rest/QueryStatus";
-import { RehearsalStrip } from "../RehearsalStrip";
 import { useActiveProcedures } from "../useActiveProcedures";
 import { SweepBegin } from "./SweepBegin";
 import { SweepWork } from "./SweepWork";
@@ -10,7 +9,6 @@ export function SweepPage(): ReactNode {
   const running = useActiveProcedures();
   return (
     <>
-      <RehearsalStrip scenes={["sweep"]} />
       {running.data === null && <QueryStatus query={running} />}
       {running.data !== null &&
         (running.data.sweep ? (

@@ -17,7 +17,8 @@ import {
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
-import { LiveStage } from "../LiveStage";
+import { StepActions } from "../../StepActions";
+import { WorkPicture } from "../WorkPicture";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { ConfirmOrCancelButton } from "../ConfirmOrCancelButton";
 import { ToolSeen } from "../ToolSeen";
@@ -61,26 +62,12 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
   };
   return (
     <div className="work">
-      <LiveStage />
+      <WorkPicture scene="sweep" />
       <div className="work-side">
         <section className="card">
           <ToolSeen tool={data.tool} />
           <SweepProgress sweep={data} />
           {data.problem !== null && <RegistrationRejection rejection={new Rejection(data.problem)} />}
-          <Button
-            size="xl"
-            fullWidth
-            variant={data.taking ? "default" : "filled"}
-            aria-pressed={data.taking}
-            loading={doing.busy}
-            data-testid="sweep-take"
-            onClick={() => {
-              setFit(null);
-              run(() => putRegistrationSweep({ body: { taking: !data.taking } }), query.refetch);
-            }}
-          >
-            {data.taking ? texts.sweep.lift : texts.sweep.take}
-          </Button>
         </section>
         <RegistrationRejection rejection={doing.rejection ?? fitting.rejection} />
         {fitting.busy && (
@@ -89,52 +76,65 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
           </p>
         )}
         {fit !== null && <SweepFit fit={fit} />}
-        <div className="row">
-          <Button size="lg" variant="default" loading={fitting.busy} data-testid="sweep-fit" onClick={lay}>
-            {texts.sweep.fit}
-          </Button>
-          <ConfirmOrCancelButton
-            needsConfirmation
-            confirmLabel={texts.replaceSure}
-            disabled={fit === null || fit.missing.length > 0}
-            busy={doing.busy}
-            testId="sweep-conclude"
-            onConfirm={() => {
-              run(
-                () => postRegistrationSweepConclusion({ body: { made_by: madeBy } }),
-                (done) => {
-                  procedure.refetch();
-                  if (done) navigate("/operator/register");
-                },
-              );
-            }}
-          >
-            {texts.sweep.conclude}
-          </ConfirmOrCancelButton>
-          <ConfirmOrCancelButton
-            needsConfirmation
-            variant="default"
-            confirmLabel={texts.throwAwaySure}
-            testId="sweep-again"
-            onConfirm={() => {
-              setFit(null);
-              run(() => postRegistrationSweep({ body: { tool: data.tool } }), query.refetch);
-            }}
-          >
-            <Icon name="undo" /> {texts.sweep.again}
-          </ConfirmOrCancelButton>
-          <ConfirmOrCancelButton
-            needsConfirmation
-            variant="default"
-            confirmLabel={texts.throwAwaySure}
-            onConfirm={() => {
-              run(() => deleteRegistrationSweep(), onOver);
-            }}
-          >
-            {texts.throwAway}
-          </ConfirmOrCancelButton>
-        </div>
       </div>
+      <StepActions>
+        <ConfirmOrCancelButton
+          needsConfirmation
+          variant="default"
+          confirmLabel={texts.throwAwaySure}
+          onConfirm={() => {
+            run(() => deleteRegistrationSweep(), onOver);
+          }}
+        >
+          {texts.throwAway}
+        </ConfirmOrCancelButton>
+        <ConfirmOrCancelButton
+          needsConfirmation
+          variant="default"
+          confirmLabel={texts.throwAwaySure}
+          testId="sweep-again"
+          onConfirm={() => {
+            setFit(null);
+            run(() => postRegistrationSweep({ body: { tool: data.tool } }), query.refetch);
+          }}
+        >
+          <Icon name="undo" /> {texts.sweep.again}
+        </ConfirmOrCancelButton>
+        <Button size="lg" variant="default" loading={fitting.busy} data-testid="sweep-fit" onClick={lay}>
+          {texts.sweep.fit}
+        </Button>
+        <ConfirmOrCancelButton
+          needsConfirmation
+          confirmLabel={texts.replaceSure}
+          disabled={fit === null || fit.missing.length > 0}
+          busy={doing.busy}
+          testId="sweep-conclude"
+          onConfirm={() => {
+            run(
+              () => postRegistrationSweepConclusion({ body: { made_by: madeBy } }),
+              (done) => {
+                procedure.refetch();
+                if (done) navigate("/operator/register");
+              },
+            );
+          }}
+        >
+          {texts.sweep.conclude}
+        </ConfirmOrCancelButton>
+        <Button
+          size="xl"
+          variant={data.taking ? "default" : "filled"}
+          aria-pressed={data.taking}
+          loading={doing.busy}
+          data-testid="sweep-take"
+          onClick={() => {
+            setFit(null);
+            run(() => putRegistrationSweep({ body: { taking: !data.taking } }), query.refetch);
+          }}
+        >
+          {data.taking ? texts.sweep.lift : texts.sweep.take}
+        </Button>
+      </StepActions>
     </div>
   );
 }
