@@ -1,4 +1,4 @@
-import { useEffect, useEffectEvent, useState } from "react";
+import { useEffect, useEffectEvent, useRef, useState } from "react";
 import { useLocation } from "wouter";
 import type { Picture } from "../api";
 import { usePainter } from "../live/LiveContext";
@@ -13,14 +13,17 @@ export function LookReport(): null {
   const [path] = useLocation();
   const [reporter] = useState(() => new LookReporter());
 
+  // Where there is no video, the figures are what is looked at.
+  const hasVideo = useRef(true);
+
   usePainter(({ video, numbers }) => {
-    // Where there is no video, the figures are what is looked at.
-    const shown = document.querySelector("[data-picture=video]") === null ? numbers : video;
+    const shown = hasVideo.current ? video : numbers;
     reporter.add(shown.live, shown.ageMs ?? 0);
   });
 
   const report = useEffectEvent(() => {
     const seat = room?.now().you?.seat;
+    hasVideo.current = document.querySelector("[data-picture=video]") !== null;
     if (room === null || seat === undefined) return;
     const look = reporter.next(shownNow(path), seat);
     if (look !== null) room.send({ look });
