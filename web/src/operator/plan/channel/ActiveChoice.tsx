@@ -3,6 +3,7 @@ import type { ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
 import { deletePlanActiveChannel, postPlanActiveChannel } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
+import { StepActions } from "../../StepActions";
 import { usePlanning } from "../state/PlanContext";
 import type { PlannedChannel } from "../state/shape";
 import { anglesOf, draftOf, lengthMm } from "./draft";
@@ -42,16 +43,17 @@ export function ActiveChoice({
           ● {texts.isActive}
         </p>
       )}
-      <Button
-        size="xl"
-        fullWidth
-        disabled={busy}
-        variant={isActive ? "default" : "filled"}
-        data-testid="activate"
-        onClick={choose}
-      >
-        {isActive ? texts.deactivate : texts.activate}
-      </Button>
+      <StepActions>
+        <Button
+          size="xl"
+          disabled={busy}
+          variant={isActive ? "default" : "filled"}
+          data-testid="activate"
+          onClick={choose}
+        >
+          {isActive ? texts.deactivate : texts.activate}
+        </Button>
+      </StepActions>
     </section>
   );
 }

@@ -4,6 +4,7 @@ import { deletePlanVertebraeByNameChannelsBySide, putPlanVertebraeByNameChannels
 import { useTexts } from "../../../texts/TextsContext";
 import { SetupCheckNote } from "../../SetupCheckNote";
 import { SideChooser } from "../pedicle/SideChooser";
+import { StepActions } from "../../StepActions";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
 import { useSlices } from "../slices/SlicesContext";
 import { plus } from "../slices/vectors";
@@ -46,15 +47,16 @@ export function ChannelPart(): ReactNode {
       {planned === null && moved === null && (
         <>
           <p>{isMeasured ? texts.none : texts.notMeasured}</p>
-          <Button
-            size="xl"
-            fullWidth
-            disabled={busy || !isMeasured}
-            data-testid="lay-channel"
-            onClick={layAlongPedicle}
-          >
-            {texts.lay}
-          </Button>
+          <StepActions>
+            <Button
+              size="xl"
+              disabled={busy || !isMeasured}
+              data-testid="lay-channel"
+              onClick={layAlongPedicle}
+            >
+              {texts.lay}
+            </Button>
+          </StepActions>
           <Button size="lg" fullWidth variant="default" disabled={busy} onClick={beginAt}>
             {texts.byHandHere}
           </Button>

@@ -7,6 +7,7 @@ import { useAction } from "../../../rest/useAction";
 import { isOver, useJob } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
 import { useIntoView } from "../../parts/useIntoView";
+import { StepActions } from "../../StepActions";
 import { CursorPad } from "../slices/CursorPad";
 import { useSlices } from "../slices/SlicesContext";
 import { vec3 } from "../slices/vectors";
@@ -70,9 +71,6 @@ export function PediclePart(): ReactNode {
       <SideChooser />
       <p>{texts.tap[side]}</p>
       <CursorPad />
-      <Button size="xl" fullWidth disabled={isMeasuring || busy} data-testid="measure" onClick={measure}>
-        {record === null ? texts.measure[side] : texts.again[side]}
-      </Button>
       <RejectionNote rejection={action.rejection} />
       <JobProgress followed={job} />
       {doubtfulAt !== null && (
@@ -89,13 +87,24 @@ export function PediclePart(): ReactNode {
       {record !== null && (
         <div className="measured" ref={numbers}>
           <PedicleNumbers key={now} record={record} vertebra={name} />
-          {!vertebra.channels.some((one) => one.side === side) && (
-            <Button size="xl" fullWidth disabled={busy} data-testid="lay-channel" onClick={layChannel}>
-              {texts.layChannel}
-            </Button>
-          )}
         </div>
       )}
+      <StepActions>
+        <Button
+          size="xl"
+          variant={record === null ? "filled" : "default"}
+          disabled={isMeasuring || busy}
+          data-testid="measure"
+          onClick={measure}
+        >
+          {record === null ? texts.measure[side] : texts.again[side]}
+        </Button>
+        {record !== null && !vertebra.channels.some((one) => one.side === side) && (
+          <Button size="xl" disabled={busy} data-testid="lay-channel" onClick={layChannel}>
+            {texts.layChannel}
+          </Button>
+        )}
+      </StepActions>
     </>
   );
 }
