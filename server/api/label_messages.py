@@ -1,12 +1,9 @@
 """Messages about the labels of vertebrae."""
 
 from collections.abc import Mapping
-from typing import Annotated, TypeAlias
-
-from pydantic import Field
 
 from server.api.case_messages import HeadingMessage
-from server.api.ct_messages import Coordinate, list_of, mapping_of
+from server.api.ct_messages import list_of, mapping_of
 from server.live import Problem
 from server.procedure.plan.repository import ChannelLevel
 from server.stream.messages import Message, ProblemMessage, problem_message
@@ -60,18 +57,6 @@ class StartPointsMessage(Message):
 
     level: str
     starts: list[StartPointMessage]
-
-
-Row: TypeAlias = Annotated[list[Coordinate], Field(min_length=3, max_length=3)]
-
-
-class OutlinesRequest(Message):
-    """A slice of the CT, by the geometry of its pixels."""
-
-    lps_from_px: Annotated[list[Row], Field(min_length=3, max_length=3)]
-    """3x3 matrix from (u, v, 1) to LPS in mm."""
-    width_px: Annotated[int, Field(ge=1, le=2048)]
-    height_px: Annotated[int, Field(ge=1, le=2048)]
 
 
 class LabelOutlineMessage(Message):

@@ -8,13 +8,13 @@ from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse
 
 from server.api.case_messages import heading_message
+from server.api.ct_messages import Coordinate
 from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.api.label_messages import (
     ChannelLevelsMessage,
     LabelOutlinesMessage,
     LabelsMessage,
-    OutlinesRequest,
     StartPointsMessage,
     channel_levels_message,
     labels_message,
@@ -30,6 +30,8 @@ from server.store import CaseStore, Home
 
 # As for a CT, of which a segmentation is a part.
 MAX_LABELS_BYTES = 4 * 2**30
+# No slice of a CT has more columns or rows.
+MAX_SLICE_PX = 2048
 GZIP = "application/gzip"
 LABEL_TYPES: dict[str, dict[str, object]] = {"application/zip": {}, "application/octet-stream": {}}
 
@@ -97,8 +99,14 @@ def _add_use(router: APIRouter, step: LabelStep, plan: PlanStep) -> None:
         """Return in the label of which level each planned channel lies."""
         return channel_levels_message(plan.repository.channel_levels())
 
-    @router.post("/labels/outlines", responses=rejections(409, 503))
-    def outlines(requested: OutlinesRequest) -> LabelOutlinesMessage:
-        """Return the outlines of the labels in a slice of the CT; the slice is that of a `SliceMessage`."""
-        size = requested.width_px, requested.height_px
-        return outlines_message(step.outlines(np.array(requested.lps_from_px), size))
+    @router.get("/labels/outlines", responses=rejections(409, 503))
+    def outlines(
+        lps_from_px: Annotated[list[Coordinate], Query(min_length=9, max_length=9)],
+        width_px: Annotated[int, Query(ge=1, le=MAX_SLICE_PX)],
+        height_px: Annotated[int, Query(ge=1, le=MAX_SLICE_PX)],
+    ) -> LabelOutlinesMessage:
+        """Return the outlines of the labels in a slice of the CT, by the geometry of a `SliceMessage`.
+
+        `lps_from_px` is its 3x3 matrix, row by row.
+        """
+        return outlines_message(step.outlines(np.array(lps_from_px).reshape(3, 3), (width_px, height_px)))

@@ -125,6 +125,7 @@ GET     /api/registration/needles/overlay.jpg
 GET     /api/labels
 GET     /api/labels.nii.gz
 GET     /api/labels/channels
+GET     /api/labels/outlines
 GET     /api/labels/starts/{level}
 GET     /api/surface
 GET     /api/surface.ply
@@ -237,7 +238,6 @@ POST    /api/registration/needles/proposal
 POST    /api/registration/needles/overlay
 POST    /api/registration/needles/conclusion
 POST    /api/labels
-POST    /api/labels/outlines
 POST    /api/surface/from-ct
 POST    /api/surface
 """

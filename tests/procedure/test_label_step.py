@@ -95,8 +95,9 @@ def test_both_pedicles_are_measured_from_the_label(server: Server) -> None:
     ]
     assert server.ask("GET", "/api/labels/starts/L4", 409)["code"] == "LEVEL_WITHOUT_LABEL"
     place = server.ask("GET", "/api/ct/slices/axial?at_mm=0", 200)
-    asked = {key: place[key] for key in ("lps_from_px", "width_px", "height_px")}
-    (one,) = server.ask("POST", "/api/labels/outlines", 200, json=asked)["outlines"]
+    asked = {key: place[key] for key in ("width_px", "height_px")}
+    asked["lps_from_px"] = [one for row in place["lps_from_px"] for one in row]
+    (one,) = server.ask("GET", "/api/labels/outlines", 200, params=asked)["outlines"]
     assert one["level"] == "L3"
     assert len(one["rings_lps_mm"]) >= 2, "the bone, and its canal as a hole"
 
@@ -125,7 +126,7 @@ def test_a_plan_for_another_level_than_its_label_is_refused_and_stated(server: S
     (one,) = server.ask("GET", "/api/labels/channels", 200)["channels"]
     assert one["problem"]["code"] == "LEVEL_DOUBTFUL"
     assert plan_step()["state"] == "out_of_date"
-    assert "L4" in plan_step()["reason"]
+    assert "L4" in plan_step()["message"]
     again = {**BY, "vertebra": "L3", "side": "left"}
     assert server.ask("POST", "/api/plan/active-channel", 409, json=again)["code"] == "LEVEL_DOUBTFUL"
     # It can still be taken out, and the vertebra planned under its right name.

@@ -17,6 +17,7 @@ const NAMED: readonly [kind: Heading["kind"], name: RegExp, title: Title][] = [
   ["plan", /^main$/, "plan"],
   ["camera", /^main$/, "camera"],
   ["ct", /^main$/, "ct"],
+  ["labels", /^main$/, "labels"],
   ["surface", /^main$/, "surface"],
   ["signature", /^plan /, "planSigned"],
   ["signature", /^registration (.+) by /, "registrationSigned"],

@@ -8,6 +8,7 @@ import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { useCaseId, useProcedure } from "../../app/procedure";
 import { CtIntake } from "./ct/CtIntake";
+import { LabelsProvider } from "./labels/LabelsContext";
 import { SlicesProvider } from "./slices/SlicesContext";
 import { hasDocument } from "./state/documents";
 import { PlanProvider } from "./state/PlanContext";
@@ -57,7 +58,9 @@ function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
     <PlanProvider caseId={caseId}>
       <SlicesProvider key={ct.data.heading.id} ct={ct.data} lookAnew={ct.refetch}>
         <WorkProvider>
-          <Workplace onCtTaken={ct.refetch} />
+          <LabelsProvider caseId={caseId}>
+            <Workplace onCtTaken={ct.refetch} />
+          </LabelsProvider>
         </WorkProvider>
       </SlicesProvider>
     </PlanProvider>

@@ -5,6 +5,7 @@ import { ChannelPart } from "./channel/ChannelPart";
 import { CtPart } from "./ct/CtPart";
 import { PlanDrawing } from "./drawing/PlanDrawing";
 import { FilePart } from "./file/FilePart";
+import { LevelProblems } from "./labels/LevelProblems";
 import { LandmarksPart } from "./landmarks/LandmarksPart";
 import { LinesPart } from "./lines/LinesPart";
 import { PediclePart } from "./pedicle/PediclePart";
@@ -37,6 +38,7 @@ export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
       <div className="plan-body">
         <Planes drawing={(plane, projection) => <PlanDrawing plane={plane} projection={projection} />} />
         <aside className="plan-side" aria-label={texts.part[part]}>
+          <LevelProblems />
           {isLoading && part !== "ct" ? (
             <QueryStatus query={{ rejection: planRejection, refetch: askAgain }} />
           ) : (

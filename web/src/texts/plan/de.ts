@@ -1,10 +1,12 @@
 import type { PlanTexts } from "./en";
 import { filesDe } from "./filesDe";
+import { labelsDe } from "./labelsDe";
 import { slicesDe } from "./slicesDe";
 
 export const planDe: PlanTexts = {
   ...slicesDe,
   ...filesDe,
+  ...labelsDe,
   title: "Planung",
   nobodyNamed: "Bedienung",
   noCase: "Es ist kein Fall geöffnet. Eine Planung gehört zu einem Fall.",

@@ -1,9 +1,11 @@
 import { filesEn } from "./filesEn";
+import { labelsEn } from "./labelsEn";
 import { slicesEn } from "./slicesEn";
 
 export const planEn = {
   ...slicesEn,
   ...filesEn,
+  ...labelsEn,
   title: "Plan",
   nobodyNamed: "operator",
   noCase: "No case is open. A plan belongs to a case.",

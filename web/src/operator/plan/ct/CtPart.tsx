@@ -4,6 +4,7 @@ import { formatNumber } from "../../../live/rounding";
 import { useTexts } from "../../../texts/TextsContext";
 import { Maker } from "../../parts/Maker";
 import { formatTime } from "../../parts/format";
+import { LabelIntake } from "../labels/LabelIntake";
 import { useSlices } from "../slices/SlicesContext";
 import { CtIntake } from "./CtIntake";
 
@@ -53,6 +54,7 @@ export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
           {texts.other}
         </Button>
       )}
+      <LabelIntake />
     </>
   );
 }

@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../../../texts/TextsContext";
 import { middleOf, MOVED, shiftChannel, type Moved } from "../channel/draft";
 import { areSame, draftLines } from "../lines/draftLines";
+import { LabelDrawing } from "../labels/LabelDrawing";
 import type { PlaneName } from "../slices/address";
 import type { Projection } from "../slices/projection";
 import { useSlices } from "../slices/SlicesContext";
@@ -32,6 +33,7 @@ export function PlanDrawing({ plane, projection }: { plane: PlaneName; projectio
   const isLaid = reference !== null && areSame(lines, reference.lines);
   return (
     <>
+      <LabelDrawing projection={projection} />
       {part === "surface" && <SurfaceOutline projection={projection} />}
       {vertebrae.map((one) => (
         <VertebraDrawing key={one.name} vertebra={one} projection={projection} />

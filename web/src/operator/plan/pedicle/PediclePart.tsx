@@ -8,6 +8,7 @@ import { isOver, useJob } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
 import { useIntoView } from "../../parts/useIntoView";
 import { StepActions } from "../../StepActions";
+import { MeasureBoth } from "../labels/MeasureBoth";
 import { CursorPad } from "../slices/CursorPad";
 import { useSlices } from "../slices/SlicesContext";
 import { vec3 } from "../slices/vectors";
@@ -68,6 +69,7 @@ export function PediclePart(): ReactNode {
   return (
     <>
       <VertebraChooser />
+      <MeasureBoth key={name} vertebra={name} />
       <SideChooser />
       <p>{texts.tap[side]}</p>
       <CursorPad />
