@@ -22,6 +22,7 @@ UPLOADS = frozenset(
     {
         "/api/cases/archive",
         "/api/ct",
+        "/api/labels",
         "/api/markers",
         "/api/plan/import",
         "/api/surface",
