@@ -41,14 +41,11 @@ def page(browser: Browser, tmp_path: Path, files: tuple[bytes, bytes]) -> Iterat
         door = context.request
         case = door.post(f"{address}/api/cases", data={"name": "L3"}).json()["id"]
         assert door.post(f"{address}/api/cases/{case}/open").ok
-        octets = {"Content-Type": "application/octet-stream"}
-        job = door.post(f"{address}/api/ct?made_by=test", data=files[0], headers=octets).json()["id"]
         opened = context.new_page()
         opened.goto(f"{address}/operator/plan")
-        opened.wait_for_function(
-            "job => fetch(`/api/jobs/${job}`).then(a => a.json()).then(a => a.state === 'done')", arg=job
-        )
-        opened.reload()
+        sent: FilePayload = {"name": "ct.nii.gz", "mimeType": "application/gzip", "buffer": files[0]}
+        opened.get_by_test_id("ct-intake").get_by_test_id("file-input").set_input_files(sent)
+        expect(opened.get_by_test_id("slice-axial")).to_be_visible(timeout=PATIENCE_MS)
         yield opened
         context.close()
     finally:
@@ -78,9 +75,7 @@ def test_labels_are_drawn_and_both_pedicles_are_measured_without_a_click(
     page.get_by_test_id("add-vertebra").click()
     page.get_by_test_id("level-L3").click()
     page.get_by_test_id("measure-both").click()
-    page.wait_for_function(
-        """() => fetch("/api/plan").then((answer) => answer.json()).then(
-            ({ plan }) => plan.vertebrae.find((one) => one.name === "L3").pedicles.length === 2)""",
-        timeout=PATIENCE_MS,
-    )
-    expect(page.get_by_test_id("lay-channel")).to_be_enabled(timeout=PATIENCE_MS)
+    expect(page.get_by_test_id("part-pedicle")).to_contain_text("2", timeout=PATIENCE_MS)
+    plan = page.request.get(f"{page.url.partition('/operator')[0]}/api/plan").json()["plan"]
+    measured = next(one for one in plan["vertebrae"] if one["name"] == "L3")["pedicles"]
+    assert sorted(one["measured"]["side"] for one in measured) == ["left", "right"]
