@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from playwright.sync_api import Page, Route, WebSocketRoute, expect
 
+from tests.browser.made_up_ct import answer_ct
 from tests.browser.supervised import Supervised
 from tests.browser.theatre import CHECKOUT, PATIENCE_MS, WatchedPage
 
@@ -109,6 +110,8 @@ class Loading:
         self._open: set[str] = set()
         self.page.add_init_script(RECORDER)
         self.page.route("**/api/**", self._answer)
+        # This server's CT has no slices, and the browser would log each rejection.
+        self.page.route("**/api/navigation/ct", answer_ct)
         self.page.route_web_socket(re.compile(r"/ws/(view|live|room)"), self._line)
         self.page.clock.install(time=0)
 
