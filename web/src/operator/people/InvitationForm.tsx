@@ -10,7 +10,8 @@ import { InvitationLink } from "./InvitationLink";
 type Invited = InvitedMessage;
 
 const ROLES: readonly Role[] = ["supervisor", "viewer", "screen", "camera", "operator"];
-const HOURS = [1, 24, 168];
+const WEEK_H = 168;
+const HOURS = [1, 24, WEEK_H];
 
 /** Form for an invitation: name, role, duration; then its link, once. */
 export function InvitationForm({ onInvited }: { onInvited: () => void }): ReactNode {
@@ -75,7 +76,10 @@ export function InvitationForm({ onInvited }: { onInvited: () => void }): ReactN
           <SegmentedControl
             size="lg"
             aria-label={texts.lasts}
-            data={HOURS.map((one) => ({ value: String(one), label: `${String(one)} ${texts.hours}` }))}
+            data={HOURS.map((one) => ({
+              value: String(one),
+              label: one === WEEK_H ? texts.week : `${String(one)} ${texts.hours}`,
+            }))}
             value={String(hours)}
             onChange={(chosen) => {
               setHours(Number(chosen));

@@ -1,9 +1,10 @@
 import type { ReactNode } from "react";
 import { MARKS } from "../../alarms/AlarmSentence";
 import { formatFigure, formatNumber } from "../../live/rounding";
-import { FIGURES } from "../../panes/limits";
+import { FIGURES, type FigureName } from "../../panes/limits";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { textOf } from "../../texts/text";
+import type { Texts } from "../../texts/en";
 import { useTexts } from "../../texts/TextsContext";
 import { clockDuration } from "../recordingText";
 import { displayedTool } from "./comparison";
@@ -45,7 +46,7 @@ export function InstantView({ shown, images }: { shown: ShownInstant; images: nu
                 </dt>
                 <dd data-testid={`review-${name}`}>{figure === null ? "—" : formatFigure(figure.value)}</dd>
                 <dd className="review-limit">
-                  {figure?.limit == null ? "" : `${texts.theatre.limit} ${formatNumber(figure.limit)}`}
+                  {figure?.limit == null ? "" : `${limitWord(name, texts)} ${formatNumber(figure.limit)}`}
                 </dd>
               </div>
             );
@@ -69,4 +70,10 @@ export function InstantView({ shown, images }: { shown: ShownInstant; images: nu
       </div>
     </div>
   );
+}
+
+/** The wall's limit is the distance below which it is near, that of the depth the planned depth. */
+function limitWord(name: FigureName, { theatre }: Texts): string {
+  if (name === "wall") return theatre.nearBelow;
+  return name === "depth" ? theatre.of : theatre.limit;
 }

@@ -4,8 +4,8 @@ export const operatorDe: OperatorTexts = {
   steps: "Schritte des Eingriffs",
   skip: "Zum Schritt springen",
   next: "Nächster Schritt",
-  now: "als Nächstes",
-  locked: "noch nicht",
+  now: "jetzt",
+  locked: "später",
   page: {
     case: "Fall",
     camera: "Kamera",

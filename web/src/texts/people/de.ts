@@ -15,6 +15,7 @@ export const peopleDe: PeopleTexts = {
   },
   lasts: "Gültigkeit des Links",
   hours: "Std.",
+  week: "7 Tage",
   singleUse: "Nur für eine Anmeldung",
   forMachine: "Für ein Skript, nicht für einen Browser",
   make: "Link erstellen",

@@ -13,6 +13,7 @@ export const peopleEn = {
   },
   lasts: "The link is valid for",
   hours: "h",
+  week: "7 days",
   singleUse: "One sign-in only",
   forMachine: "For a script, not for a browser",
   make: "Create the link",

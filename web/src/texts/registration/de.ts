@@ -4,7 +4,7 @@ import { nudgesDe } from "./nudgesDe";
 
 export const registrationDe: RegistrationTexts = {
   title: "Registrierung",
-  shut: "Die Registrierung ist noch nicht möglich: Ein früherer Schritt fehlt. Die Liste der Schritte zeigt, welcher.",
+  shut: "Die Registrierung ist noch nicht möglich: Ein früherer Schritt fehlt.",
   ways: "Registrierungsverfahren",
   overview: "Übersicht",
   way: { points: "Landmarken", needles: "Nadeln", sweep: "Oberfläche", nudges: "Feinkorrektur" },

@@ -3,7 +3,7 @@ import { nudgesEn } from "./nudgesEn";
 
 export const registrationEn = {
   title: "Registration",
-  shut: "Registration is not possible yet: an earlier step is missing. The list of steps shows which one.",
+  shut: "Registration is not possible yet: an earlier step is missing.",
   ways: "Registration methods",
   overview: "Overview",
   way: { points: "Landmarks", needles: "Needles", sweep: "Surface", nudges: "Nudges" },

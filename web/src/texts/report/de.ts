@@ -31,7 +31,7 @@ export const reportDe: ReportTexts = {
   passed: "bestanden",
   notPassed: "nicht bestanden",
   allowed: "erlaubt",
-  nothing: "Dieser Fall enthält noch keine Dokumente.",
+  nothing: "In diesem Fall ist noch kein Schritt gespeichert.",
   madeAt: "Zeitpunkt",
   by: "Von",
   alarms: "Alarme",

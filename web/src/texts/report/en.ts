@@ -29,7 +29,7 @@ export const reportEn = {
   passed: "passed",
   notPassed: "not passed",
   allowed: "allowed",
-  nothing: "This case does not contain any documents yet.",
+  nothing: "No step has been stored in this case yet.",
   madeAt: "Time",
   by: "By",
   alarms: "Alarms",
