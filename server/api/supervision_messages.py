@@ -51,7 +51,7 @@ class PageMessage(Message):
     pictures: list[Picture]
     """Visible pictures, the largest first."""
     freshness: Freshness
-    """old: picture and figures are covered; hidden: the page is in the background; unknown: not reported."""
+    """old: picture and figures are covered; hidden: page in the background; unknown: no report or answer."""
     max_age_ms: float | None
     """Upper limit of the age on this page in the last second, in steps; null if it is not live."""
 

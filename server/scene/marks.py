@@ -1,7 +1,6 @@
 """Marks on cuts of the CT as lines in the vertebra frame, one node for each colour."""
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
@@ -63,8 +62,8 @@ def segments_in_vertebra_mm(mark: Mark) -> Array:
         at = _in_vertebra_mm(plane, [mark.at if isinstance(mark, Pointer) else mark.points[0]])
         arms = CROSS_MM * np.eye(3)
         return np.stack([at - arms, at + arms], axis=1)
-    ends = [pair for line in _lines_mm(mark) for pair in pairwise(line)]
-    return _in_vertebra_mm(plane, np.reshape(ends, (-1, 2))).reshape(-1, 2, 3)
+    ends = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in _lines_mm(mark)])
+    return _in_vertebra_mm(plane, ends)
 
 
 def _lines_mm(drawing: Drawing) -> list[Array]:

@@ -1,7 +1,7 @@
 """Participants of the room: each person once, with their open pages and the state of their connection."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from server.security import Person, Role
@@ -58,7 +58,7 @@ class Freshness(StrEnum):
     LIVE = "live"
     OLD = "old"  # its picture and figures are covered
     HIDDEN = "hidden"  # another tab or window is in front of it
-    UNKNOWN = "unknown"  # it has not reported yet
+    UNKNOWN = "unknown"  # it has not reported yet, or does not answer
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,6 +130,12 @@ class RoomSession:
         if self.sent_at_s is not None:
             self.round_trip_s, self.sent_at_s = now_s - self.sent_at_s, None
 
+    def page_look(self, now_s: float) -> PageLook:
+        """Return the page and what it shows; a page that does not answer may have frozen since its report."""
+        is_silent = self.connection(now_s) is ConnectionState.SILENT
+        look = replace(self.look, freshness=Freshness.UNKNOWN, max_age_ms=None) if is_silent else self.look
+        return PageLook(view=self.view, look=look)
+
     def connection(self, now_s: float) -> ConnectionState:
         """Return the connection's state, by the last response time or the wait for the next one."""
         waited_s = 0.0 if self.sent_at_s is None else now_s - self.sent_at_s
@@ -180,7 +186,7 @@ def _present(sessions: list[RoomSession], now_s: float) -> Participant:
         person_id=person.id,
         name=person.name,
         role=person.role,
-        pages=tuple(dict.fromkeys(PageLook(view=one.view, look=one.look) for one in sessions)),
+        pages=tuple(dict.fromkeys(one.page_look(now_s) for one in sessions)),
         since=min(session.since for session in sessions),
         connection=next(state for state in ConnectionState if state in connections),
     )

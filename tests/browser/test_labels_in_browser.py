@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, FilePayload, Page, expect
+from playwright.sync_api import Browser, FilePayload, Page, Route, expect
 
 from server.imaging.nifti import nifti_bytes
 from tests.browser.test_rehearsal_in_browser import Rehearsal
@@ -74,8 +74,30 @@ def test_labels_are_drawn_and_both_pedicles_are_measured_without_a_click(
     expect(page.get_by_test_id("measure-both")).to_have_count(0)
     page.get_by_test_id("add-vertebra").click()
     page.get_by_test_id("level-L3").click()
+    _cancel_a_measurement(page)
     page.get_by_test_id("measure-both").click()
     expect(page.get_by_test_id("part-pedicle")).to_contain_text("2", timeout=PATIENCE_MS)
     plan = page.request.get(f"{page.url.partition('/operator')[0]}/api/plan").json()["plan"]
     measured = next(one for one in plan["vertebrae"] if one["name"] == "L3")["pedicles"]
     assert sorted(one["measured"]["side"] for one in measured) == ["left", "right"]
+    expect(page.get_by_test_id("lay-channel")).to_be_enabled(timeout=PATIENCE_MS)
+
+
+def _cancel_a_measurement(page: Page) -> None:
+    """Begin a measurement that the server does not see, cancel it, and expect that another may begin."""
+    job = {"id": "0", "title": "measuring", "state": "running", "progress_ratio": 0.0, "doing": ""}
+    job |= {"result": None, "problem": None}
+
+    def answer(route: Route) -> None:
+        if route.request.method == "DELETE":
+            job["state"] = "cancelled"
+        route.fulfill(json=job)
+
+    addresses = ("**/pedicles/*", "**/api/jobs/0")
+    for address in addresses:
+        page.route(address, answer)
+    page.get_by_test_id("measure-both").click()
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.get_by_test_id("measure-both")).to_be_enabled()
+    for address in addresses:
+        page.unroute(address)

@@ -9,7 +9,7 @@ from pathlib import Path
 import nibabel as nib
 import numpy as np
 
-from server.imaging.nifti.affine import LPS_FROM_RAS
+from server.imaging.nifti.affine import LPS_FROM_RAS, MIN_VOXEL_MM
 from server.imaging.nifti.header import BAD_NIFTI
 from server.imaging.nifti.writer import RAS_FROM_LPS
 from tracker.errors import InvalidInput
@@ -44,7 +44,8 @@ def load_label_file(path: Path, *, voxel_mm: float) -> LabelVolume:
         affine = LPS_FROM_RAS @ np.asarray(image.header.get_sform(), dtype=np.float64)
     except (*BAD_NIFTI, OSError):
         raise _damaged() from None
-    if labels.ndim != 3 or labels.dtype != np.uint8:
+    voxel_mm3 = float(np.abs(np.linalg.det(affine[:3, :3]))) if np.isfinite(affine).all() else 0.0
+    if labels.ndim != 3 or labels.dtype != np.uint8 or voxel_mm3 < MIN_VOXEL_MM**3:
         raise _damaged()
     return LabelVolume(
         labels=np.ascontiguousarray(labels.transpose(2, 1, 0)), lps_from_ijk=affine, voxel_mm=voxel_mm

@@ -92,8 +92,9 @@ def names_in_extension(content: bytes) -> dict[int, int]:
     """
     found: dict[int, int] = {}
     for label in _LABEL.finditer(content[:MAX_EXTENSION_BYTES]):
-        level = level_from_name(label["name"].decode("ascii", errors="replace"))
-        found[int(label["number"])] = 0 if level is None else CLASS_OF_LEVEL[level]
+        level, number = level_from_name(label["name"].decode("ascii", errors="replace")), int(label["number"])
+        if number <= MAX_NUMBER:
+            found[number] = 0 if level is None else CLASS_OF_LEVEL[level]
     return found
 
 

@@ -12,7 +12,7 @@ from pydicom.uid import UID, RLELossless
 
 from server.imaging.container import Entry
 from server.imaging.dicom.frame import MAX_FRAMES
-from server.imaging.dicom.header import BAD_DICOM, number, numbers, text, without_warnings
+from server.imaging.dicom.header import BAD_DICOM, DEFLATED, number, numbers, text, without_warnings
 from server.imaging.labels.label_image import LabelImage
 from server.imaging.labels.names import LEVEL_OF_SNOMED
 from server.imaging.nifti.affine import MAX_VOXEL_MM, MIN_VOXEL_MM
@@ -41,11 +41,18 @@ class _SegmentFrame:
 def is_segmentation(entry: Entry) -> bool:
     """Return whether a file is a DICOM Segmentation."""
     try:
+        if _is_deflated(entry):
+            return SEGMENTATION.encode() in entry.head()
         with without_warnings(), entry.open() as file:
             meta = pydicom.dcmread(file, specific_tags=["SOPClassUID"], stop_before_pixels=True)
     except BAD_DICOM:
         return False
     return text(meta, "SOPClassUID") == SEGMENTATION
+
+
+def _is_deflated(entry: Entry) -> bool:
+    """Return whether a file is compressed as a whole; pydicom would unpack all of it, whatever its size."""
+    return DEFLATED in entry.head()
 
 
 def read_segmentation(entry: Entry, names: Mapping[int, int]) -> LabelImage:
@@ -60,6 +67,8 @@ def read_segmentation(entry: Entry, names: Mapping[int, int]) -> LabelImage:
     if entry.size > MAX_FILE_BYTES:
         raise _unreadable(f"its {entry.size / 2**20:.0f} MiB exceed {MAX_FILE_BYTES / 2**20:.0f} MiB")
     try:
+        if _is_deflated(entry):
+            raise _unreadable("it is deflated")
         with without_warnings(), entry.open() as file:
             dataset = pydicom.dcmread(file)
             _check_readable(dataset)
@@ -72,7 +81,7 @@ def read_segmentation(entry: Entry, names: Mapping[int, int]) -> LabelImage:
 
 def _check_readable(dataset: Dataset) -> None:
     syntax = UID(text(dataset.file_meta, "TransferSyntaxUID"))
-    if syntax.is_deflated or (syntax.is_encapsulated and syntax != RLELossless):
+    if syntax.is_encapsulated and syntax != RLELossless:
         raise _unreadable(f"it is compressed as {syntax.name}")
     kind = text(dataset, "SegmentationType").upper()
     if kind != "BINARY" or int(number(dataset, "BitsAllocated", 0)) != 1:

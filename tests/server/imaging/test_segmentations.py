@@ -3,7 +3,9 @@
 import contextlib
 import dataclasses
 import functools
+import gzip
 import io
+import tracemalloc
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -15,11 +17,13 @@ import pytest
 import scipy
 from pydicom import Dataset
 from pydicom.sequence import Sequence as DicomSequence
+from pydicom.uid import DeflatedExplicitVRLittleEndian
 
 from server.imaging.labels.label_file import label_file_bytes, load_label_file
 from server.imaging.labels.names import names_from_text
 from server.imaging.labels.placement import PlacedLabels, labels_on_ct
 from server.imaging.labels.reader import read_label_images
+from tests.server.imaging.made_ct import file_of
 from tests.server.imaging.made_labels import (
     label_nifti,
     mask_of,
@@ -187,6 +191,41 @@ def test_the_file_in_the_case_gives_the_labels_back(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput) as reported:
         load_label_file(path, voxel_mm=1.0)
     assert reported.value.code == "LABELS_DAMAGED"
+
+
+@pytest.mark.parametrize("scale", [0.0, np.nan], ids=["without-extent", "not-a-number"])
+def test_a_file_in_the_case_without_geometry_is_rejected(tmp_path: Path, scale: float) -> None:
+    """Otherwise the labels would be taken for absent, or stop the evaluation of all steps."""
+    content = bytearray(gzip.decompress(label_file_bytes(true())))
+    rows = np.frombuffer(content, "<f4", count=12, offset=280)
+    content[280:328] = (rows * scale).astype("<f4").tobytes()
+    path = tmp_path / "labels.nii.gz"
+    path.write_bytes(gzip.compress(bytes(content)))
+    with pytest.raises(InvalidInput) as reported:
+        load_label_file(path, voxel_mm=1.0)
+    assert reported.value.code == "LABELS_DAMAGED"
+
+
+def test_a_number_beyond_those_of_labels_in_the_table_is_ignored(tmp_path: Path) -> None:
+    named = {29: "L3", 28: "L4", 27: "L5", 99_999: "L2"}
+    assert is_true(taken(tmp_path, label_nifti(true(), names=named)))
+
+
+def test_a_deflated_segmentation_is_rejected_before_it_is_unpacked(tmp_path: Path) -> None:
+    dataset = segmentation_of(true())
+    dataset.EncapsulatedDocument = bytes(2**26)
+    content = file_of(dataset, DeflatedExplicitVRLittleEndian)
+    assert len(content) < 2**20
+    del dataset
+    tracemalloc.start()
+    try:
+        with pytest.raises(InvalidInput) as reported:
+            taken(tmp_path, content)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert reported.value.code == "SEGMENTATION_UNREADABLE"
+    assert peak < 2**25
 
 
 @functools.cache

@@ -7,6 +7,7 @@ import pytest
 from server.security import Person, Role
 from server.supervision.marks import MAX_DRAWINGS_PER_PERSON, MAX_POINTS_PER_DRAWING, CutPlane, Moment, Shape
 from server.supervision.participants import (
+    SILENT_AFTER_S,
     ConnectionState,
     Freshness,
     Look,
@@ -119,6 +120,24 @@ def test_what_a_page_shows_is_listed_with_its_person(scene: Scene) -> None:
     assert person.pages == (PageLook(view=View.THEATRE, look=DRILLING),)
     scene.room.look(second, replace(DRILLING, freshness=Freshness.HIDDEN), now_s=scene.now_s)
     assert len(scene.room.participants(scene.now_s)[0].pages) == 2
+
+
+def test_a_page_that_does_not_answer_is_not_listed_as_live(scene: Scene) -> None:
+    frozen, other = scene.enter(GUEST, View.THEATRE), scene.enter(GUEST, View.SUPERVISOR)
+    for session in (frozen, other):
+        scene.room.look(session, DRILLING, now_s=scene.now_s)
+    frozen.sent_at_s = scene.now_s
+    scene.now_s += SILENT_AFTER_S
+    (person,) = scene.room.participants(scene.now_s)
+    assert person.connection is ConnectionState.GOOD, "the other page answers"
+    unknown = replace(DRILLING, freshness=Freshness.UNKNOWN, max_age_ms=None)
+    assert person.pages == (
+        PageLook(view=View.THEATRE, look=unknown),
+        PageLook(view=View.SUPERVISOR, look=DRILLING),
+    )
+    frozen.answered(scene.now_s)
+    frozen.round_trip_s = 0.1
+    assert scene.room.participants(scene.now_s)[0].pages[0].look == DRILLING
 
 
 def test_a_page_that_reports_too_often_is_cut_off(scene: Scene) -> None:

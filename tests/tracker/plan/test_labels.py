@@ -1,6 +1,7 @@
 """Labels of vertebrae: counting of levels, start points for pedicles, and contradictions to a measurement."""
 
 import dataclasses
+import tracemalloc
 
 import numpy as np
 import numpy.typing as npt
@@ -208,6 +209,19 @@ def test_measured_labels_and_outlines_have_the_size_of_the_bone() -> None:
         assert points[:, 1].min() == pytest.approx(expected.low_lps_mm[1], abs=1.5)
     beside = sagittal + np.array([[0.0, 0.0, 500.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
     assert label_outlines(labels, beside, (110, 150)) == ()
+
+
+def test_outlines_of_the_largest_slice_take_little_memory() -> None:
+    _, labels = three_levels()
+    fine = np.array([[0.0, 0.0, 0.0], [0.05, 0.0, -50.0], [0.0, -0.05, 30.0]])
+    tracemalloc.start()
+    try:
+        outlines = label_outlines(labels, fine, (2048, 2048))
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert len(outlines) == 3
+    assert peak < 2**27
 
 
 def test_distances_to_the_surface_of_a_label_are_signed() -> None:

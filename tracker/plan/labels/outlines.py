@@ -6,11 +6,12 @@ import cv2
 import numpy as np
 
 from tracker.geometry import Array
-from tracker.plan.labels.label_volume import LabelVolume
+from tracker.plan.labels.label_volume import Labels, LabelVolume
 from tracker.plan.labels.levels import CLASS_OF_LEVEL
 
 # Smaller parts of a section are not drawn.
 MIN_PIXELS = 12
+ROWS_AT_ONCE = 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,12 +39,12 @@ def label_outlines(
         lps_from_px: (3, 3), takes (u, v, 1) to LPS in mm, as in `Slice`.
         size_wh_px: number of columns and rows of the slice.
     """
-    width, height = size_wh_px
-    v, u = np.mgrid[:height, :width]
-    points = np.stack([u, v, np.ones_like(u)], axis=-1).reshape(-1, 3) @ lps_from_px.T
-    numbers = labels.numbers_at(points).reshape(height, width)
+    numbers = _numbers_in_slice(labels, lps_from_px, size_wh_px)
+    shown = np.flatnonzero(np.bincount(numbers.ravel()))
     found = []
     for level, number in CLASS_OF_LEVEL.items():
+        if number not in shown:
+            continue
         mask = (numbers == number).astype(np.uint8)
         if np.count_nonzero(mask) < MIN_PIXELS:
             continue
@@ -62,3 +63,15 @@ def label_outlines(
             )
         )
     return tuple(found)
+
+
+def _numbers_in_slice(labels: LabelVolume, lps_from_px: Array, size_wh_px: tuple[int, int]) -> Labels:
+    """Return the class numbers (height, width); a few rows at a time, to save memory."""
+    width, height = size_wh_px
+    numbers = np.zeros((height, width), dtype=np.uint8)
+    for start in range(0, height, ROWS_AT_ONCE):
+        part = numbers[start : start + ROWS_AT_ONCE]
+        v, u = np.mgrid[start : start + len(part), :width]
+        points = np.stack([u, v, np.ones_like(u)], axis=-1).reshape(-1, 3) @ lps_from_px.T
+        part[:] = labels.numbers_at(points).reshape(part.shape)
+    return numbers

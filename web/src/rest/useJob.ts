@@ -49,7 +49,8 @@ export function useJob(onOver: (job: Job) => void): JobFollowed {
 
   const cancel = useCallback(() => {
     if (id === null) return;
-    void deleteJobsByJobId({ path: { job_id: id } }).then(setJob, () => undefined);
+    // Its end is seen by the next question, which also calls `onOver`.
+    deleteJobsByJobId({ path: { job_id: id } }).catch(() => undefined);
   }, [id]);
   const forget = useCallback(() => {
     setJob(null);

@@ -12,7 +12,7 @@ export const roomDe: RoomTexts = {
     camera: "Kamera",
   },
   what: "Wer sieht was",
-  freshness: { old: "Bild zu alt", hidden: "Seite im Hintergrund", unknown: "nicht gemeldet" },
+  freshness: { old: "Bild zu alt", hidden: "Seite im Hintergrund", unknown: "ob live, unbekannt" },
   figures: "Nur Zahlen",
   upTo: "bis # ms alt",
   line: { good: "gute Verbindung", slow: "langsame Verbindung", silent: "antwortet nicht" },

@@ -10,7 +10,7 @@ export const roomEn = {
     camera: "camera",
   },
   what: "Who sees what",
-  freshness: { old: "picture too old", hidden: "page in the background", unknown: "not reported" },
+  freshness: { old: "picture too old", hidden: "page in the background", unknown: "unknown whether live" },
   figures: "Figures only",
   upTo: "up to # ms old",
   line: { good: "good connection", slow: "slow connection", silent: "not answering" },
