@@ -87,6 +87,9 @@ def test_a_click_on_the_bone_is_reported_as_its_point_in_the_vertebra(
         with fed(server, theatre):
             reported(page, "m.image_number >= 5")
             uncovered(page)
+            # Nothing is marked where the page marks nothing.
+            page.mouse.click(320, 240)
+            page.evaluate("scene.dataset.marking = 'true'")
             # A drag turns the view and marks nothing, as a click beside the bone.
             page.mouse.click(5, 5)
             page.mouse.move(320, 240)

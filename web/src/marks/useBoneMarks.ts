@@ -5,7 +5,8 @@ import { vec3, type Vec3 } from "../operator/plan/slices/vectors";
 import { markSurfaceAt } from "./cutMarks";
 import { useMarking } from "./MarkingContext";
 
-export function useBoneMarks(frame: RefObject<HTMLIFrameElement | null>): void {
+/** Listens to the scene in this frame; returns whether a click marks. */
+export function useBoneMarks(frame: RefObject<HTMLIFrameElement | null>): boolean {
   const marking = useMarking();
   const { live } = useLive();
   const onPoint = useEffectEvent((point: Vec3) => {
@@ -26,6 +27,7 @@ export function useBoneMarks(frame: RefObject<HTMLIFrameElement | null>): void {
       removeEventListener("message", listen);
     };
   }, [frame]);
+  return marking !== null;
 }
 
 /** The point of a message of `watch.js`; null for another one. */

@@ -27,7 +27,7 @@ export function ScenePane({ tabs }: { tabs?: ReactNode }): ReactNode {
   const age = useRef<HTMLSpanElement>(null);
   const frame = useRef<HTMLIFrameElement>(null);
   const limiter = useRef(new PaintRateLimiter());
-  useBoneMarks(frame);
+  const isMarking = useBoneMarks(frame);
   const sentView = useRef<DrawingBudget | null>(null);
   const [attempt, setAttempt] = useState(0);
   const [chosen, setChosen] = useState<ViewName>("behind");
@@ -92,6 +92,7 @@ export function ScenePane({ tabs }: { tabs?: ReactNode }): ReactNode {
               setSize(element, live.load.budget);
             }}
             src="/scene/"
+            data-marking={isMarking}
             title={texts.scene.title}
             onLoad={() => {
               sendView(frame.current, chosen);

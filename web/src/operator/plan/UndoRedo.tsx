@@ -23,7 +23,8 @@ export function UndoRedo(): ReactNode {
     const way = historyKey(event);
     if (way === null || isTyping(event.target)) return;
     event.preventDefault();
-    if (ways[way].can) take(way);
+    // A key that is held would undo one stored version after another.
+    if (ways[way].can && !event.repeat) take(way);
   });
   useEffect(() => {
     const listener = (event: KeyboardEvent): void => {
