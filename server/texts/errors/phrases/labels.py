@@ -28,6 +28,7 @@ LABELS: Mapping[str, tuple[Text, ...]] = {
     "segmentation_problem": (
         {"en": "it is truncated or damaged", "de": "sie ist abgeschnitten oder beschädigt"},
         {"en": "its {mib} MiB exceed {max_mib} MiB", "de": "ihre {mib} MiB überschreiten {max_mib} MiB"},
+        {"en": "it is deflated", "de": "sie ist als Ganzes komprimiert (Deflate)"},
         {"en": "it is compressed as {syntax}", "de": "sie ist komprimiert als {syntax}"},
         {
             "en": "its type is {kind}, not BINARY with one bit a pixel",
