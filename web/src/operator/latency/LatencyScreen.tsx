@@ -1,5 +1,5 @@
 import { Button, Progress as Bar } from "@mantine/core";
-import { useEffect, useEffectEvent, useRef, useState, type ReactNode } from "react";
+import { useEffectEvent, useLayoutEffect, useRef, useState, type ReactNode } from "react";
 import { useLive } from "../../live/LiveContext";
 import { deleteLatencyMeasurement } from "../../api";
 import { Rejection } from "../../rest/client";
@@ -28,7 +28,8 @@ export function LatencyScreen({ plan, onOver }: LatencyScreenProps): ReactNode {
     measure({ live, plan, canvas: drawnOn, madeBy, signal, onProgress: setProgress }),
   );
 
-  useEffect(() => {
+  // Before the codes are seen: a page that is left right then ends its measurement, too.
+  useLayoutEffect(() => {
     if (canvas.current === null) return;
     const leaving = new AbortController();
     const { signal } = leaving;
