@@ -137,11 +137,11 @@ def planned_pedicle(store: CaseStore, active: Document) -> PlannedPedicle:
     chosen = active_channel_from_document(active)
     plan = store.document(active.case_id, active.depends_on[0])
     vertebra = vertebra_named(plan_from_mapping(plan.content), chosen.vertebra)
-    measures = [one.used for one in vertebra.pedicles if one.measured.side == chosen.side]
+    pedicle = vertebra.pedicle(chosen.side)
     screws = [one.screws[0] for one in vertebra.channels if one.side == chosen.side and one.screws]
     return PlannedPedicle(
         active=chosen,
-        measure=measures[0] if measures else None,
+        measure=None if pedicle is None else pedicle.used,
         screw=screws[0] if screws else None,
     )
 

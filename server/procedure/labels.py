@@ -13,7 +13,6 @@ from server.planning.labels import LABELS, UPLOAD, read_labels
 from server.procedure.ct import CtProvider
 from server.procedure.open_case import require_open_case
 from server.store import CaseStore, Document, DocumentKind, StoredFile, translate_errors
-from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.plan.labels import (
     LabelOutline,
@@ -66,15 +65,14 @@ class LabelProvider:
             return self._in_use
 
     def _loaded(self, document: Document) -> CaseLabels:
-        from server.imaging.labels.label_file import load_label_file  # noqa: PLC0415  slow to import
+        from server.imaging.labels.label_file import (  # noqa: PLC0415  slow to import
+            labels_damaged,
+            load_label_file,
+        )
 
         voxel_mm = document.content.get("voxel_mm")
         if len(document.files) != 1 or not isinstance(voxel_mm, float | int):
-            raise InvalidInput(
-                "LABELS_DAMAGED",
-                "the file of the labels in the case is damaged",
-                "Send the segmentation again.",
-            )
+            raise labels_damaged()
         file = self._store.file(document.case_id, document.files[0])
         return CaseLabels(document=document, volume=load_label_file(file.path, voxel_mm=float(voxel_mm)))
 
@@ -86,13 +84,16 @@ class LabelStep:
         store: where the labels are stored.
         jobs: runs the reading.
         ct_provider: the CT that they must be of.
+        provider: the labels, which other steps use too.
     """
 
-    def __init__(self, *, store: CaseStore, jobs: Jobs, ct_provider: CtProvider) -> None:
+    def __init__(
+        self, *, store: CaseStore, jobs: Jobs, ct_provider: CtProvider, provider: LabelProvider
+    ) -> None:
         self._store = store
         self._jobs = jobs
         self._ct_provider = ct_provider
-        self.provider = LabelProvider(store)
+        self._provider = provider
 
     def reject_without_ct(self) -> None:
         """Raise if the open case has no CT, before a large upload.
@@ -184,7 +185,7 @@ class LabelStep:
         return label_outlines(self._current().volume, lps_from_px, size_wh_px)
 
     def _current(self) -> CaseLabels:
-        labels = self.provider.current()
+        labels = self._provider.current()
         if labels is None:
             raise labels_not_stored(require_open_case(self._store).id)
         return labels

@@ -20,7 +20,7 @@ from server.procedure.channel_proposal import ChannelProposer
 from server.procedure.confirmation_step import ConfirmStep
 from server.procedure.ct import CtProvider, CtStep
 from server.procedure.drill_reference import DrillReferenceBuilder
-from server.procedure.labels import LabelStep
+from server.procedure.labels import LabelProvider, LabelStep
 from server.procedure.latency import LatencyStep
 from server.procedure.markers import MarkerStep
 from server.procedure.navigation_ct import NavigationCtProvider
@@ -119,7 +119,8 @@ class Steps:
         """
         defaults = defaults_from_config(config)
         marker_step = MarkerStep(store=store, defaults=markers)
-        procedure = _procedure(store, config, defaults, tracking.tracked_from_s)
+        labels = LabelProvider(store)
+        procedure = _procedure(store, config, defaults, labels, tracking.tracked_from_s)
         latencies = LatencyFile(store.home.folder)
         drill_references = DrillReferenceBuilder(store=store, jobs=jobs)
         setup_publisher = SetupPublisher(
@@ -134,12 +135,11 @@ class Steps:
         _publish_changes(setup_publisher, store)
         ct_provider = CtProvider(store)
         surface = SurfaceStep(store=store, jobs=jobs, ct_provider=ct_provider)
-        labels = LabelStep(store=store, jobs=jobs, ct_provider=ct_provider)
         plan = PlanStep(
             store=store,
             jobs=jobs,
             ct_provider=ct_provider,
-            labels=labels.provider,
+            labels=labels,
             config=config.plan,
             bone_wall=drill_references.bone_wall,
         )
@@ -178,7 +178,7 @@ class Steps:
                 store=store, ct_provider=ct_provider, jobs=jobs, is_rehearsal=_knows_itself(config)
             ),
             plan=plan,
-            labels=labels,
+            labels=LabelStep(store=store, jobs=jobs, ct_provider=ct_provider, provider=labels),
             surface=surface,
             procedure=procedure,
             registration=registration,
@@ -199,10 +199,15 @@ class Steps:
 
 
 def _procedure(
-    store: CaseStore, config: Config, defaults: SetupDefaults, tracked_from_s: Callable[[], float]
+    store: CaseStore,
+    config: Config,
+    defaults: SetupDefaults,
+    labels: LabelProvider,
+    tracked_from_s: Callable[[], float],
 ) -> Procedure:
     return Procedure(
         store,
+        labels=labels,
         defaults=defaults,
         gate=config.registration,
         run=new_run(),

@@ -76,7 +76,7 @@ class RecordedOperation:
         one_of = {"web": family.web, "tracking": family.tracking, "recorder": family.recording}
         pids = family.pids if target == "all" else (one_of[target],)
         # A busy machine falls behind for a moment, and then shows nothing.
-        shown_at_s = self._shown()["captured_at_s"]
+        shown_at_s = self._server.shown()["captured_at_s"]
         kill(tuple(pid for pid in pids if pid is not None))
         if target in {"web", "all"}:
             self._ending.close()
@@ -119,17 +119,10 @@ class RecordedOperation:
 
     def _start(self) -> None:
         self._server = unended_server(self._ending, self._folder, self._settings)
-        self._shown()
+        self._server.shown()
         needed = self._server.ask("GET", "/api/procedure", 200)["confirmation"]
         if needed is not None:
             self._server.ask("POST", CONFIRM, 200, json={"registration_id": needed["registration_id"]})
-
-    def _shown(self) -> dict[str, Any]:
-        shown: dict[str, Any] = self._server.until(
-            "poses and numbers that are not stale",
-            lambda: self._server.ask("GET", "/api/live", 200)["snapshot"],
-        )
-        return shown
 
     def _state(self) -> dict[str, Any]:
         state: dict[str, Any] = self._server.ask("GET", "/api/recordings/state", 200)

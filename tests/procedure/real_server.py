@@ -60,6 +60,10 @@ class RealServer:
             time.sleep(LOOK_AGAIN_S)
         return given
 
+    def shown(self) -> Any:  # noqa: ANN401  JSON
+        """Return the newest snapshot as soon as there is one that is not stale."""
+        return self.until("a snapshot", lambda: self.ask("GET", "/api/live", 200)["snapshot"])
+
     def done(self, job: Mapping[str, Any]) -> Any:  # noqa: ANN401  JSON
         """Wait for a job and return its result."""
 

@@ -91,7 +91,7 @@ def alarms(server: RealServer) -> dict[str, Any]:
 
 def numbers_of_new_images(server: RealServer) -> None:
     """Images keep arriving, with numbers."""
-    newest = server.until("an image", lambda: server.ask("GET", "/api/live", 200)["snapshot"])
+    newest = server.shown()
 
     def is_newer() -> bool:
         now = server.ask("GET", "/api/live", 200)["snapshot"]

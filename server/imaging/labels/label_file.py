@@ -11,7 +11,7 @@ import numpy as np
 
 from server.imaging.nifti.affine import LPS_FROM_RAS, MIN_VOXEL_MM
 from server.imaging.nifti.header import BAD_NIFTI
-from server.imaging.nifti.writer import RAS_FROM_LPS
+from server.imaging.nifti.writer import compressed_nifti
 from tracker.errors import InvalidInput
 from tracker.plan.labels import LabelVolume
 
@@ -22,12 +22,7 @@ MAX_BYTES = 2**29
 
 def label_file_bytes(volume: LabelVolume) -> bytes:
     """Return labels as the bytes of a .nii.gz."""
-    affine = RAS_FROM_LPS @ volume.lps_from_ijk
-    image = nib.Nifti1Image(volume.labels.transpose(2, 1, 0), affine)
-    image.set_sform(affine, code=1)
-    image.set_qform(affine, code=1)
-    image.header.set_xyzt_units("mm")
-    return gzip.compress(image.to_bytes(), compresslevel=COMPRESSION, mtime=0)
+    return compressed_nifti(volume.labels, volume.lps_from_ijk, compression=COMPRESSION)
 
 
 def load_label_file(path: Path, *, voxel_mm: float) -> LabelVolume:
@@ -43,16 +38,17 @@ def load_label_file(path: Path, *, voxel_mm: float) -> LabelVolume:
         labels = np.asarray(image.dataobj)
         affine = LPS_FROM_RAS @ np.asarray(image.header.get_sform(), dtype=np.float64)
     except (*BAD_NIFTI, OSError):
-        raise _damaged() from None
+        raise labels_damaged() from None
     voxel_mm3 = float(np.abs(np.linalg.det(affine[:3, :3]))) if np.isfinite(affine).all() else 0.0
     if labels.ndim != 3 or labels.dtype != np.uint8 or voxel_mm3 < MIN_VOXEL_MM**3:
-        raise _damaged()
+        raise labels_damaged()
     return LabelVolume(
         labels=np.ascontiguousarray(labels.transpose(2, 1, 0)), lps_from_ijk=affine, voxel_mm=voxel_mm
     )
 
 
-def _damaged() -> InvalidInput:
+def labels_damaged() -> InvalidInput:
+    """Return the error for labels of a case that cannot be read."""
     return InvalidInput(
         "LABELS_DAMAGED", "the file of the labels in the case is damaged", "Send the segmentation again."
     )

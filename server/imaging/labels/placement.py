@@ -12,7 +12,7 @@ from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.plan import Volume
 from tracker.plan.labels import (
-    LEVEL_OF_CLASS,
+    CLASS_OF_LEVEL,
     Labels,
     LabelVolume,
     VertebraLabel,
@@ -89,7 +89,7 @@ def labels_on_ct(images: Iterable[LabelImage], ct: Volume) -> PlacedLabels:
         _check_volume(one)
     for one in measured:
         if one not in vertebrae:
-            whole[whole == _class_of(one)] = 0
+            whole[whole == CLASS_OF_LEVEL[one.level]] = 0
     if not vertebrae:
         raise _empty()
     check_levels(vertebrae)
@@ -110,10 +110,6 @@ def labels_on_ct(images: Iterable[LabelImage], ct: Volume) -> PlacedLabels:
 
 def _voxel_ml(affine: Array) -> float:
     return float(abs(np.linalg.det(affine[:3, :3]))) / 1000.0
-
-
-def _class_of(one: VertebraLabel) -> int:
-    return next(number for number, level in LEVEL_OF_CLASS.items() if level == one.level)
 
 
 def _add(whole: Labels, image: LabelImage, ct: Volume) -> tuple[int, int]:

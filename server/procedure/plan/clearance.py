@@ -73,11 +73,11 @@ def _along(
             planned.channel, wall, diameter_mm=screw.diameter_mm, length_mm=screw.length_mm
         )
         return along or NoClearance.BESIDE_WALL
-    pedicle = next((one.used for one in vertebra.pedicles if one.measured.side == planned.side), None)
+    pedicle = vertebra.pedicle(planned.side)
     if pedicle is None:
         return NoClearance.NOT_MEASURED
     along = clearance_along(
-        planned.channel, pedicle, diameter_mm=screw.diameter_mm, length_mm=screw.length_mm
+        planned.channel, pedicle.used, diameter_mm=screw.diameter_mm, length_mm=screw.length_mm
     )
     return along or NoClearance.BESIDE_WALL
 

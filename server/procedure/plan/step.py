@@ -11,7 +11,7 @@ from server.jobs import Job, Jobs
 from server.planning.volume import measure_in_ct
 from server.procedure.ct import CtProvider
 from server.procedure.labels import LabelProvider
-from server.procedure.plan.active_channel import active_channel_document, active_channel_from_document
+from server.procedure.plan.active_channel import active_channel_document
 from server.procedure.plan.clearance import ActiveBone, PlannedClearance, planned_clearances
 from server.procedure.plan.repository import PlanRepository, StoredPlan
 from server.store import CaseStore, Document
@@ -241,14 +241,14 @@ class PlanStep:
             SetupOrderError: NO_CASE_OPEN, PLAN_MISSING.
         """
         stored = self.repository.latest()
-        document = None
-        if stored.active is not None:
-            document = active_channel_document(self._store, stored.document.case_id)
+        return stored, tuple(planned_clearances(stored.plan, self._active_bone(stored)))
+
+    def _active_bone(self, stored: StoredPlan) -> ActiveBone | None:
+        document = active_channel_document(self._store, stored.document.case_id)
         wall = None if document is None else self._bone_wall(document)
-        if document is None or wall is None:
-            return stored, tuple(planned_clearances(stored.plan, None))
-        bone = ActiveBone(active=active_channel_from_document(document), wall=wall)
-        return stored, tuple(planned_clearances(stored.plan, bone))
+        if stored.active is None or wall is None:
+            return None
+        return ActiveBone(active=stored.active, wall=wall)
 
     def propose_slice(self, name: str) -> Proposal:
         """Return the slice nearest to the isthmuses of a vertebra; raises PlanError NO_PEDICLE_MEASURED."""

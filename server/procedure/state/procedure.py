@@ -73,6 +73,7 @@ class Procedure:
         self,
         store: CaseStore,
         *,
+        labels: LabelProvider,
         defaults: SetupDefaults,
         gate: RegistrationConfig,
         run: str,
@@ -81,7 +82,7 @@ class Procedure:
         clock: Callable[[], datetime] = utc_now,
     ) -> None:
         self._store = store
-        self._labels = LabelProvider(store)
+        self._labels = labels
         self._defaults = defaults
         self._gate = gate
         self.run = run
@@ -234,8 +235,9 @@ class Procedure:
 
     def _check_level(self, case_id: str) -> None:
         """Raise PlanError LEVEL_DOUBTFUL if the active channel lies in the label of another level."""
-        active, labels = active_channel_document(self._store, case_id), self._labels.current()
-        if active is not None and labels is not None:
+        labels = self._labels.current()
+        active = None if labels is None else active_channel_document(self._store, case_id)
+        if labels is not None and active is not None:
             chosen = active_channel_from_document(active)
             check_channel(labels.volume, chosen.vertebra, chosen.channel)
 

@@ -13,6 +13,7 @@ from server.config import RegistrationConfig
 from server.jobs import Jobs
 from server.procedure.camera import MAIN_CAMERA
 from server.procedure.drill_reference import DrillReferenceBuilder
+from server.procedure.labels import LabelProvider
 from server.procedure.markers import MarkerStep
 from server.procedure.plan import ACTIVE_CHANNEL
 from server.procedure.registration_record import RegistrationEvidence, RegistrationRecord
@@ -60,7 +61,9 @@ class Published:
         publisher = SetupPublisher(
             store,
             TrackingLink(publish_setup=self.setups.append, publish_facts=self.facts.append),
-            procedure=Procedure(store, defaults=defaults, gate=RegistrationConfig(), run=RUN),
+            procedure=Procedure(
+                store, labels=LabelProvider(store), defaults=defaults, gate=RegistrationConfig(), run=RUN
+            ),
             # The cases have no bone surface, so that no job starts.
             drill_references=DrillReferenceBuilder(store=store, jobs=cast("Jobs", None)),
             defaults=defaults,

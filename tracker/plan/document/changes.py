@@ -42,9 +42,9 @@ def pedicle_of(vertebra: VertebraPlan, side: Side) -> PedicleRecord:
     Raises:
         PlanError: PEDICLE_MISSING.
     """
-    for record in vertebra.pedicles:
-        if record.measured.side == side:
-            return record
+    record = vertebra.pedicle(side)
+    if record is not None:
+        return record
     raise PlanError(
         "PEDICLE_MISSING",
         f"the {side} pedicle of {vertebra.name} is not measured",

@@ -81,6 +81,10 @@ class VertebraPlan:
             )
         reject_duplicate_names(self.landmarks)
 
+    def pedicle(self, side: Side) -> PedicleRecord | None:
+        """Return the pedicle of a side; None if it is not measured."""
+        return next((one for one in self.pedicles if one.measured.side == side), None)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanDocument:

@@ -5,6 +5,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { sentence } from "../parts/format";
 import { StepActions } from "../StepActions";
 import { stateText } from "../stepTexts";
+import { openSteps } from "./openSteps";
 import { useProcedure, type Step } from "../../app/procedure";
 
 /** Steps that are not valid or due again, with reasons and links; otherwise the way to another check. */
@@ -15,7 +16,7 @@ export function Gates(): ReactNode {
   if (data === null) return <QueryStatus query={procedure} />;
   // The head of the page states this already.
   if (data.case_id === null) return null;
-  const open = data.steps.filter((one) => one.step !== "navigate" && one.state !== "done");
+  const open = openSteps(data.steps);
   if (open.length === 0)
     return (
       <StepActions>

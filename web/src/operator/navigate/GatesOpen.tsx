@@ -3,13 +3,14 @@ import { useProcedure, type Step } from "../../app/procedure";
 import { formatNumber } from "../../live/rounding";
 import { interpolate } from "../../texts/interpolate";
 import { useTexts } from "../../texts/TextsContext";
+import { openSteps } from "./openSteps";
 
 /** That all steps are valid, with the result of the check; nothing while one is due. */
 export function GatesOpen(): ReactNode {
   const texts = useTexts().navigate;
   const steps = useProcedure().data?.steps ?? [];
   const check = steps.find((one) => one.step === "check");
-  if (steps.some((one) => one.step !== "navigate" && one.state !== "done")) return null;
+  if (openSteps(steps).length > 0) return null;
   return (
     <p className="step-said good" role="status" data-testid="gates-open">
       ✓ {texts.open} {check !== undefined && checkSaid(texts.checked, check.numbers)}
