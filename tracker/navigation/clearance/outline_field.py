@@ -32,7 +32,7 @@ def outline_distance_field(
     anterior wall is therefore not monitored, and the wall near the entry hardly.
     """
     grid = grid_around(channel, step_mm=step_mm, margin_mm=margin_mm)
-    offset = _offsets(grid, measure.isthmus_lps_mm)
+    offsets = _offsets(grid, measure.isthmus_lps_mm)
     axis = measure.axis_lps
     helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
     first = np.cross(axis, helper) / np.linalg.norm(np.cross(axis, helper))
@@ -42,9 +42,9 @@ def outline_distance_field(
     reach = float(np.abs(outline).max()) + REACH_MM
     places = np.arange(-reach, reach, FINE_MM, dtype=np.float32)
     drawn = _signed_mm(np.stack(np.meshgrid(places, places, indexing="ij"), axis=-1), outline)
-    index = np.moveaxis((offset @ plane.T + reach) / FINE_MM, -1, 0)
+    index = np.stack([(_along(offsets, direction) + reach) / FINE_MM for direction in plane])
     signed = scipy.ndimage.map_coordinates(drawn, index, order=1, mode="nearest")
-    beyond = np.maximum(np.abs(offset @ axis.astype(np.float32)) - HALF_LENGTH_MM, 0.0)
+    beyond = np.maximum(np.abs(_along(offsets, axis)) - HALF_LENGTH_MM, 0.0)
     return _field(WallSource.PEDICLE, grid, signed - beyond)
 
 
@@ -56,19 +56,28 @@ def channel_distance_field(
     There is no wall beyond its ends; there the outline is widened by 1 mm per mm.
     """
     grid = grid_around(channel, step_mm=step_mm, margin_mm=margin_mm)
-    offset = _offsets(grid, channel.entry_in_vertebra_mm)
-    depth = offset @ channel.axis_in_vertebra.astype(np.float32)
-    off = np.sqrt(np.maximum((offset**2).sum(axis=-1) - depth**2, 0.0))
+    offsets = _offsets(grid, channel.entry_in_vertebra_mm)
+    depth = _along(offsets, channel.axis_in_vertebra)
+    x, y, z = offsets
+    off = np.sqrt(np.maximum(x**2 + y**2 + z**2 - depth**2, 0.0))
     beyond = np.maximum(np.maximum(-depth, depth - channel.length_mm), 0.0)
-    return _field(WallSource.CHANNEL, grid, off - channel.radius_mm - beyond)
+    return _field(WallSource.CHANNEL, grid, np.asarray(off - channel.radius_mm - beyond, np.float32))
 
 
-def _offsets(grid: Grid, from_mm: Array) -> npt.NDArray[np.float32]:
-    nodes = np.stack(
-        np.meshgrid(*[np.arange(n, dtype=np.float32) for n in grid.shape], indexing="ij"), axis=-1
-    )
-    from_origin = (grid.origin_mm - from_mm).astype(np.float32)
-    return np.asarray(from_origin + np.float32(grid.step_mm) * nodes, dtype=np.float32)
+def _offsets(grid: Grid, from_mm: Array) -> tuple[npt.NDArray[np.float32], ...]:
+    """Return the offsets of the nodes in x (n0, 1, 1), y (1, n1, 1) and z (1, 1, n2)."""
+    along = [
+        origin + grid.step_mm * np.arange(count)
+        for origin, count in zip(grid.origin_mm - from_mm, grid.shape, strict=True)
+    ]
+    return tuple(one.astype(np.float32) for one in np.ix_(*along))
+
+
+def _along(offsets: tuple[npt.NDArray[np.float32], ...], direction: Array) -> npt.NDArray[np.float32]:
+    """Return the coordinate (n0, n1, n2) of the nodes in a direction."""
+    x, y, z = offsets
+    first, second, third = direction.astype(np.float32)
+    return np.asarray(x * first + y * second + z * third, dtype=np.float32)
 
 
 def _field(against: WallSource, grid: Grid, distance_mm: npt.NDArray[np.float32]) -> WallDistanceField:
