@@ -5,17 +5,20 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from types import TracebackType
 
+from sqlalchemy import event
+from sqlalchemy.orm import Session
+
 from server.clock import Clock, utc_now
 from server.disk import FULL
 from server.store import cases, documents, files
 from server.store.archive import Archive, pack, unpack
 from server.store.case_database import CaseDatabase
+from server.store.case_index import CaseIndex
 from server.store.changes import Change
 from server.store.cleanup import clean_up, remove_case
 from server.store.documents import NewDocument
 from server.store.errors import OutOfDateError, StoreError
 from server.store.home import Home
-from server.store.read_cache import ReadCache
 from server.store.records import (
     Case,
     Current,
@@ -29,7 +32,6 @@ from server.store.records import (
     Validity,
 )
 from server.store.validation import validate_name
-from server.store.validity import lineage_of
 
 
 class CaseStore:
@@ -46,9 +48,8 @@ class CaseStore:
     def __init__(self, home: Home, *, clock: Clock = utc_now) -> None:
         self.home = home
         self._database = CaseDatabase(home, clock=clock)
-        self._reads = ReadCache()
-        # Registered before all other listeners, which may read the committed data.
-        self._database.add_commit_listener(self._reads.clear)
+        # Before all other listeners of a commit, which may read what was committed.
+        self._index = CaseIndex(self._database)
         self._on_change: Callable[[Change], None] = lambda _: None
         try:
             clean_up(self._database)
@@ -93,12 +94,7 @@ class CaseStore:
 
     def get_open_case(self) -> Case | None:
         """Return the open case; None if none is open."""
-
-        def read() -> Case | None:
-            with self._database.read_session() as session:
-                return cases.find_open_case(session)
-
-        return self._reads.get("open case", read)
+        return self._index.open_case()
 
     def rename(self, case_id: str, name: str) -> Case:
         """Rename a case; InvalidInput NAME_INVALID."""
@@ -132,6 +128,7 @@ class CaseStore:
             cases.reject_removal(session, case_id, confirm)
             self._database.reject_in_use(case_id)
             cases.mark_deleting(session, case_id)
+            self._forget_after_commit(session)
 
     def in_use(self, case_id: str) -> AbstractContextManager[None]:
         """Return a context manager that prevents the deletion of a case."""
@@ -190,19 +187,18 @@ class CaseStore:
 
     def document(self, case_id: str, document_id: str) -> Document:
         """Return a document."""
-        with self._database.read_session() as session:
-            cases.case_row(session, case_id)
-            return documents.find_document(session, case_id, document_id)
+        return self._index.documents(case_id, [self._heading(case_id, document_id)])[0]
 
     def latest(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
         """Return the newest version; None if there is none or it is withdrawn. No older version is reused."""
+        heading = self.newest(case_id, kind, name)
+        if heading is None or heading.withdrawn is not None:
+            return None
+        return self._index.documents(case_id, [heading])[0]
 
-        def read() -> Document | None:
-            with self._database.read_session() as session:
-                cases.case_row(session, case_id)
-                return next(iter(documents.newest(session, case_id, kind, name)), None)
-
-        return self._reads.get(("latest", case_id, kind, name), read)
+    def newest(self, case_id: str, kind: DocumentKind, name: str) -> Heading | None:
+        """Return the heading of the newest version, also if it is withdrawn; None if there is none."""
+        return self._index.newest(case_id, kind, name)
 
     def history(self, case_id: str, kind: DocumentKind, name: str) -> tuple[Document, ...]:
         """Return all versions in order, including withdrawn ones."""
@@ -212,22 +208,14 @@ class CaseStore:
 
     def all(self, case_id: str, kind: DocumentKind) -> tuple[Document, ...]:
         """Return the newest version of each name, without withdrawn ones, ordered by name."""
-
-        def read() -> tuple[Document, ...]:
-            with self._database.read_session() as session:
-                cases.case_row(session, case_id)
-                return documents.newest(session, case_id, kind, None)
-
-        return self._reads.get(("all", case_id, kind), read)
+        newest = self._index.newest_of_kind(case_id, kind)
+        return self._index.documents(case_id, [one for one in newest if one.withdrawn is None])
 
     def outline(self, case_id: str) -> tuple[Entry, ...]:
         """Return the headings of all versions of all documents with their validity, in order of creation."""
-        with self._database.read_session() as session:
-            cases.case_row(session, case_id)
-            lineage = lineage_of(session, case_id)
         return tuple(
-            Entry(heading=heading, validity=lineage.validity(heading.id))
-            for heading in lineage.headings.values()
+            Entry(heading=heading, validity=self._index.validity(heading))
+            for heading in self._index.headings(case_id)
         )
 
     def validity(self, document: Heading) -> Validity:
@@ -235,14 +223,7 @@ class CaseStore:
 
         It is valid if it and all documents that it depends on are the newest versions, and none is withdrawn.
         """
-
-        def read() -> Validity:
-            with self._database.read_session() as session:
-                cases.case_row(session, document.case_id)
-                documents.document_row(session, document.case_id, document.id)
-                return lineage_of(session, document.case_id, document.id).validity(document.id)
-
-        return self._reads.get(("validity", document.case_id, document.id), read)
+        return self._index.validity(self._heading(document.case_id, document.id))
 
     def current(self, case_id: str, kind: DocumentKind, name: str) -> Document:
         """Return the newest version, if it is valid.
@@ -292,6 +273,7 @@ class CaseStore:
             row = documents.document_row(session, document.case_id, document.id)
             is_news = row.withdrawn_at is None
             if is_news:
+                self._forget_after_commit(session)
                 case.changed_at = row.withdrawn_at = self._database.now
                 row.withdrawn_by, row.withdrawn_reason = by, reason
                 session.flush()
@@ -299,6 +281,15 @@ class CaseStore:
         if is_news:
             self._on_change(Change.withdrawn(found, by=by))
         return found
+
+    def _forget_after_commit(self, session: Session) -> None:
+        event.listen(session, "after_commit", lambda _: self._index.forget(), once=True)
+
+    def _heading(self, case_id: str, document_id: str) -> Heading:
+        heading = self._index.find(case_id, document_id)
+        if heading is None:
+            raise documents.document_unknown(case_id, document_id)
+        return heading
 
     # ------------------------------------------------------------ files
 

@@ -105,7 +105,7 @@ def document_row(session: Session, case_id: str, document_id: str) -> DocumentRo
     """
     row = session.get(DocumentRow, (case_id, document_id))
     if row is None:
-        raise _unknown(case_id, document_id)
+        raise document_unknown(case_id, document_id)
     return row
 
 
@@ -131,27 +131,12 @@ def every_document(session: Session, case_id: str) -> Iterator[Document]:
         yield document_of(row, bases[row.id], files[row.id])
 
 
-def newest(session: Session, case_id: str, kind: DocumentKind, name: str | None) -> tuple[Document, ...]:
-    """Return the newest version of each name unless it is withdrawn, ordered by name."""
-    last = (
-        select(DocumentRow.name, func.max(DocumentRow.version).label("version"))
-        .where(DocumentRow.case_id == case_id, DocumentRow.kind == kind.value)
-        .group_by(DocumentRow.name)
-        .subquery()
+def contents_of(session: Session, case_id: str, ids: Sequence[str]) -> dict[str, Mapping[str, object]]:
+    """Return the contents of documents by their ids."""
+    chosen = select(DocumentRow.id, DocumentRow.content).where(
+        DocumentRow.case_id == case_id, DocumentRow.id.in_(ids)
     )
-    chosen = (
-        select(DocumentRow)
-        .join(last, (DocumentRow.name == last.c.name) & (DocumentRow.version == last.c.version))
-        .where(
-            DocumentRow.case_id == case_id,
-            DocumentRow.kind == kind.value,
-            DocumentRow.withdrawn_at.is_(None),
-        )
-        .order_by(DocumentRow.name)
-    )
-    if name is not None:
-        chosen = chosen.where(DocumentRow.name == name)
-    return _read(session, session.scalars(chosen).all())
+    return {row.id: json.loads(row.content) for row in session.execute(chosen)}
 
 
 def document_of(row: DocumentRow, depends_on: Iterable[str], files: Iterable[str]) -> Document:
@@ -235,7 +220,7 @@ def _reject_strange(session: Session, case_id: str, new: NewDocument) -> None:
     for basis in new.depends_on:
         found = session.get(DocumentRow, (case_id, basis))
         if found is None:
-            raise _unknown(case_id, basis)
+            raise document_unknown(case_id, basis)
         if found.kind == DocumentKind.PATIENT:
             raise InvalidInput(
                 "DEPENDS_ON_IDENTITY",
@@ -265,7 +250,8 @@ def file_unknown(case_id: str, file_id: str) -> NotFound:
     )
 
 
-def _unknown(case_id: str, document_id: str) -> NotFound:
+def document_unknown(case_id: str, document_id: str) -> NotFound:
+    """Return the error for an unknown document."""
     return NotFound(
         "DOCUMENT_UNKNOWN",
         f"there is no document {document_id[:40]} in the case {case_id[:40]}",

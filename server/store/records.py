@@ -1,7 +1,7 @@
 """Immutable records of cases, documents and files."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import StrEnum
 from pathlib import Path
 from typing import TypeAlias
@@ -142,10 +142,15 @@ class Document(Heading):
     """One version of a result of the procedure; immutable once it is stored.
 
     Attributes:
-        content: the stored JSON (tuples become lists); each reader gets a copy.
+        content: the stored JSON (tuples become lists); readers share it, and must not change it.
     """
 
     content: Mapping[str, object]
+
+    @classmethod
+    def of(cls, heading: Heading, content: Mapping[str, object]) -> "Document":
+        """Return the document with this heading."""
+        return cls(**{field.name: getattr(heading, field.name) for field in fields(Heading)}, content=content)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -120,10 +120,10 @@ class PlanRepository:
             OutOfDateError: PLAN_OUT_OF_DATE.
         """
         ct = self._ct_provider.current()
-        history = self._store.history(ct.document.case_id, DocumentKind.PLAN, MAIN_PLAN)
-        if not history or history[-1].withdrawn is not None:
-            return PlanDocument(), len(history), ct
-        document = history[-1]
+        newest = self._store.newest(ct.document.case_id, DocumentKind.PLAN, MAIN_PLAN)
+        if newest is None or newest.withdrawn is not None:
+            return PlanDocument(), 0 if newest is None else newest.version, ct
+        document = self._store.document(newest.case_id, newest.id)
         validity = self._store.validity(document)
         if not isinstance(validity, Current):
             raise OutOfDateError(

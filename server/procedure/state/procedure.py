@@ -273,15 +273,15 @@ class Procedure:
             record = registration_from_document(registration, reference=self._defaults.reference)
         except NavigationError as error:
             return _unusable(registration, error)
-        history = self._store.history(case_id, DocumentKind.CHECK, check_name(vertebra))
-        withdrawn = history[-1].withdrawn if history else None
-        if withdrawn is not None and registration.id in history[-1].depends_on:
+        newest = self._store.newest(case_id, DocumentKind.CHECK, check_name(vertebra))
+        withdrawn = None if newest is None else newest.withdrawn
+        if newest is not None and withdrawn is not None and registration.id in newest.depends_on:
             return Finding(
                 state=StepState.OUT_OF_DATE,
                 reason=reason(
                     "CHECK_WITHDRAWN", {"by": withdrawn.by, "why": withdrawal_text(withdrawn.reason)}
                 ),
-                document_id=history[-1].id,
+                document_id=newest.id,
             )
         return check_finding(
             registration=record,
@@ -297,14 +297,14 @@ class Procedure:
 
         `missing` is the reason where there is none; its remedy also makes a new version of one out of date.
         """
-        history = self._store.history(case_id, kind, name)
-        if not history:
+        newest = self._store.newest(case_id, kind, name)
+        if newest is None:
             return Finding(state=StepState.MISSING, reason=missing)
-        validity = self._store.validity(history[-1])
+        validity = self._store.validity(newest)
         if isinstance(validity, Current):
-            return history[-1]
+            return self._store.document(case_id, newest.id)
         why = replace(validity.why, remedy=missing.remedy)
-        return Finding(state=StepState.OUT_OF_DATE, reason=why, document_id=history[-1].id)
+        return Finding(state=StepState.OUT_OF_DATE, reason=why, document_id=newest.id)
 
 
 def _done(document: Document, done: Reason, numbers: dict[str, float | int | bool | str | None]) -> Finding:

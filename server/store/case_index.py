@@ -1,0 +1,115 @@
+"""The open case and the documents of a case in memory, so that a change reads only what it added.
+
+After each change a dozen readers ask for the newest versions and their validity. Only one server writes to a
+folder, and a document is never changed, so that what was read stays true until a withdrawal.
+"""
+
+import threading
+from collections.abc import Mapping, Sequence
+
+from server.store.case_database import CaseDatabase
+from server.store.cases import case_row, find_open_case
+from server.store.documents import contents_of
+from server.store.records import Case, Document, DocumentKind, Heading, Validity
+from server.store.validity import Lineage, read_lineage
+
+# Contents that are kept in memory; a case uses some thirty documents at a time.
+MAX_CONTENTS = 200
+
+
+class CaseIndex:
+    """The documents of the case that was asked for last. Thread-safe.
+
+    Raises (every method that names a case):
+        StoreError: the database cannot be read.
+        NotFound: CASE_UNKNOWN.
+    """
+
+    def __init__(self, database: CaseDatabase) -> None:
+        self._database = database
+        self._lock = threading.RLock()
+        # Number of changes, and the number at which case and documents were read.
+        self._changes = self._open_read_at = self._read_at = 0
+        self._open: Case | None = None
+        self._case_id = ""
+        self._lineage = Lineage()
+        self._contents: dict[str, Mapping[str, object]] = {}
+        database.add_commit_listener(self._note_commit)
+
+    def forget(self) -> None:
+        """Read everything again before the next answer.
+
+        Call it after a withdrawal or deletion is committed, and before the listeners of the commit.
+        """
+        with self._lock:
+            self._changes += 1
+            self._case_id, self._contents = "", {}
+
+    def open_case(self) -> Case | None:
+        """Return the open case; None if none is open."""
+        with self._lock:
+            if self._open_read_at <= self._changes:
+                with self._database.read_session() as session:
+                    self._open = find_open_case(session)
+                self._open_read_at = self._changes + 1
+            return self._open
+
+    def newest(self, case_id: str, kind: DocumentKind, name: str) -> Heading | None:
+        """Return the newest version, also if it is withdrawn; None if there is none."""
+        with self._lock:
+            return self._current(case_id).newest(kind).get(name)
+
+    def newest_of_kind(self, case_id: str, kind: DocumentKind) -> tuple[Heading, ...]:
+        """Return the newest version of each name, also if it is withdrawn, ordered by name."""
+        with self._lock:
+            newest = self._current(case_id).newest(kind)
+            return tuple(newest[name] for name in sorted(newest))
+
+    def find(self, case_id: str, document_id: str) -> Heading | None:
+        """Return the heading of a document; None if the case has none with this id."""
+        with self._lock:
+            return self._current(case_id).headings.get(document_id)
+
+    def headings(self, case_id: str) -> tuple[Heading, ...]:
+        """Return the headings of all versions of all documents, in order of creation."""
+        with self._lock:
+            return tuple(self._current(case_id).headings.values())
+
+    def validity(self, heading: Heading) -> Validity:
+        """Return whether a document, which the case must have, is valid."""
+        with self._lock:
+            return self._current(heading.case_id).validity(heading.id)
+
+    def documents(self, case_id: str, headings: Sequence[Heading]) -> tuple[Document, ...]:
+        """Return documents of one case with their contents."""
+        with self._lock:
+            self._current(case_id)
+            missing = [heading.id for heading in headings if heading.id not in self._contents]
+            if missing:
+                if len(self._contents) + len(missing) > MAX_CONTENTS:
+                    self._contents.clear()
+                    missing = [heading.id for heading in headings]
+                with self._database.read_session() as session:
+                    case_row(session, case_id)
+                    self._contents.update(contents_of(session, case_id, missing))
+            return tuple(Document.of(heading, self._contents[heading.id]) for heading in headings)
+
+    def _current(self, case_id: str) -> Lineage:
+        """Return the documents of a case, after reading those that are new."""
+        if self._case_id != case_id:
+            self._lineage, self._contents, self._case_id = Lineage(), {}, case_id
+        elif self._read_at > self._changes:
+            return self._lineage
+        try:
+            with self._database.read_session() as session:
+                case_row(session, case_id)
+                read_lineage(session, case_id, self._lineage)
+        except BaseException:
+            self._case_id = ""
+            raise
+        self._read_at = self._changes + 1
+        return self._lineage
+
+    def _note_commit(self) -> None:
+        with self._lock:
+            self._changes += 1
