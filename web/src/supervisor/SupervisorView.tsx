@@ -54,7 +54,6 @@ export function SupervisorView(): ReactNode {
           <RecordingState />
           <ViewSwitch />
           <Viewers />
-          <PictureSize />
           <ThemeButton />
           <HelpButton place="supervisor" />
           <SignedIn />
@@ -70,7 +69,6 @@ export function SupervisorView(): ReactNode {
         <Fold id="looks" title={texts.room.what}>
           <ViewerLooks />
         </Fold>
-        <Signables />
         <Fold id="recordings" title={texts.operator.page.recordings}>
           <Recordings mayChange={false} />
         </Fold>
@@ -98,12 +96,16 @@ function Board(): ReactNode {
         </AfterFirstMessage>
         <MarksTools />
         <VideoPane />
-        <HoldPanel />
+        <div className="decisions">
+          <HoldPanel />
+          <Signables />
+        </div>
         <CutsProvider ctOnRequest={!isLoopback(location.hostname)}>
           <Tiles layout={layout} isWide={isWide} />
         </CutsProvider>
         <div className="board-foot">
           <AgesStrip />
+          <PictureSize />
           {isWide && <LayoutBar layouts={layouts} />}
         </div>
       </MarkingProvider>
@@ -120,14 +122,19 @@ function Signables(): ReactNode {
   const registration = signable?.find((one) => one.what === "registration") ?? null;
   return (
     <>
-      <Fold id="plan" title={own.plan.title} aside={<SignState signable={plan} />}>
+      <Fold id="plan" group="sign" title={own.plan.title} aside={<SignState signable={plan} />}>
         {plan === null ? (
           <EmptyState drawing="plan" sentence={isConnected ? own.plan.none : unheard} />
         ) : (
           <PlanPanel signable={plan} />
         )}
       </Fold>
-      <Fold id="registration" title={own.registration.title} aside={<SignState signable={registration} />}>
+      <Fold
+        id="registration"
+        group="sign"
+        title={own.registration.title}
+        aside={<SignState signable={registration} />}
+      >
         {registration === null ? (
           <EmptyState drawing="registration" sentence={isConnected ? own.registration.none : unheard} />
         ) : (
