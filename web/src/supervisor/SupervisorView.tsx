@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { AlarmsAfterFirstMessage } from "../alarms/UnheardAlarms";
+import { AlarmsShown } from "../alarms/AlarmBand";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { CutsProvider } from "../cuts/CutsContext";
@@ -9,7 +9,6 @@ import { PictureSize } from "../live/PictureSize";
 import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
 import { AuditLog } from "../operator/people/AuditLog";
-import { AlertBand } from "../panes/AlertBand";
 import { EmptyState } from "../panes/EmptyState";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
@@ -58,8 +57,7 @@ export function SupervisorView(): ReactNode {
           <HelpButton place="supervisor" />
           <SignedIn />
         </header>
-        <AlarmsAfterFirstMessage />
-        <AlertBand />
+        <AlarmsShown />
         <Board />
       </div>
       <section className="supervisor-folds" aria-label={texts.theatre.more}>
