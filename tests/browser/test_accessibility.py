@@ -10,6 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.axe import load_axe, violations, violations_in_both_themes
+from tests.browser.small_targets import GLOVE_PX, small_targets
 from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, WatchedPage
 
 pytestmark = pytest.mark.browser
@@ -18,6 +19,7 @@ WEB = CHECKOUT / "web"
 STEPS = re.findall(r'\{ name: "(\w+)",', (WEB / "src" / "operator" / "pages.ts").read_text(encoding="utf-8"))
 # Where the guide is not built, its address answers how to build it.
 NOT_BUILT = 503
+SHELL = ".operator-top, .alarms, .rail, .step-head"
 THEATRE, LYING, UPRIGHT, PHONE = (1920, 1080), (1280, 800), (800, 1280), (390, 844)
 
 
@@ -95,8 +97,10 @@ def test_the_theatre_s_view_while_nothing_is_well(
 ) -> None:
     page = opened("/theatre?lang=de", THEATRE)
     shared_theatre.tell("lost")
-    expect(page.get_by_test_id("alert")).to_be_visible(timeout=PATIENCE_MS)
     expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
+    assert violations(page) == []
+    page.get_by_test_id("alarms-more").click()
+    expect(page.get_by_test_id("alert")).to_be_visible(timeout=PATIENCE_MS)
     assert violations(page) == []
     # The server's English sentences on a German page are marked with their language.
     expect(page.get_by_test_id("alert").locator("[lang=en]").first).to_contain_text("camera")
@@ -111,7 +115,7 @@ def test_every_page_of_the_operator(opened: Callable[..., Page], watched: Watche
     expect(link).to_have_attribute("aria-current", "step", timeout=PATIENCE_MS)
     expect(page.locator(".step h2").first).to_be_visible(timeout=PATIENCE_MS)
     assert violations_in_both_themes(page) == []
-    assert small_targets(page) == []
+    assert small_targets(page, min_px=GLOVE_PX, within=SHELL) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= LYING[0]
 
 
@@ -141,6 +145,7 @@ def test_a_page_that_lacks_something_leads_to_where_it_comes_from(
         page.goto(f"http://127.0.0.1:{shared_theatre.port}/operator/{name}")
         expect(step.get_by_test_id("go-case")).to_be_visible(timeout=PATIENCE_MS)
     assert violations(page) == []
+    page.get_by_test_id("rail-now").click()
     page.get_by_test_id("step-tool").click()
     expect(step.get_by_role("alert")).to_contain_text("Calibrate the camera first.", timeout=PATIENCE_MS)
     assert violations(page) == []
@@ -181,14 +186,32 @@ def test_the_light_theme(opened: Callable[..., Page], shared_theatre: Theatre) -
     opened("/supervisor")
     page.get_by_test_id("theme").click()
     expect(page.locator("html")).to_have_attribute("data-theme", "dark")
-    # Stored in the browser; theatre has a choice of its own.
-    page.reload()
-    expect(page.get_by_test_id("theme")).to_be_visible(timeout=PATIENCE_MS)
-    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+    # Stored in the browser for all of its pages.
+    for path in ("/supervisor", "/theatre", "/enter"):
+        page.goto(f"http://127.0.0.1:{shared_theatre.port}{path}")
+        expect(page.locator("html")).to_have_attribute("data-theme", "dark")
     page.evaluate("localStorage.clear()")
-    opened("/theatre")
-    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
     page.emulate_media(color_scheme="dark")
+
+
+@pytest.mark.parametrize("preferred", ["light", "dark"])
+@pytest.mark.parametrize("chosen", [None, "light", "dark", "pink"])
+def test_every_page_has_the_same_theme_before_its_first_paint(
+    browser: Browser, shared_theatre: Theatre, preferred: Literal["light", "dark"], chosen: str | None
+) -> None:
+    context = browser.new_context(color_scheme=preferred)
+    if chosen:
+        context.add_init_script(f"localStorage.setItem('coaxial.theme', '{chosen}')")
+    # Nothing of the page's own script has run.
+    context.route("**/assets/*.js", lambda route: route.abort())
+    page = context.new_page()
+    theme = chosen if chosen in ("light", "dark") else preferred
+    for path in ("", "enter", "operator/case", "theatre", "supervisor", "camera"):
+        page.goto(f"http://127.0.0.1:{shared_theatre.port}/{path}")
+        assert page.locator("html").get_attribute("data-theme") == theme
+        ground = page.evaluate("getComputedStyle(document.documentElement).backgroundColor")
+        assert ground == {"dark": "rgb(11, 16, 20)", "light": "rgb(233, 238, 241)"}[theme]
+    context.close()
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
@@ -196,7 +219,7 @@ def test_each_layout_of_the_theatre_in_both_themes(
     opened: Callable[..., Page], shared_theatre: Theatre, theme: str
 ) -> None:
     page = opened("/theatre", THEATRE)
-    page.evaluate("theme => localStorage.setItem('coaxial.theme', JSON.stringify({ theatre: theme }))", theme)
+    page.evaluate("theme => localStorage.setItem('coaxial.theme', theme)", theme)
     shared_theatre.tell("near")
     for layout in ("approach", "align", "drill", "figures"):
         opened(f"/theatre?layout={layout}", THEATRE)
@@ -219,19 +242,9 @@ def test_the_alarms_cover_nothing_of_a_page_that_is_scrolled(
     page.wait_for_function("() => document.querySelector('.step-content').scrollTop > 0")
     edges = "e => e.getBoundingClientRect()"
     assert (
-        page.locator(".operator-band").evaluate(edges)["bottom"]
+        page.get_by_test_id("alarms").evaluate(edges)["bottom"]
         <= page.locator(".step-content").evaluate(edges)["top"]
     )
-
-
-def small_targets(page: Page) -> list[str]:
-    """Buttons and links of the shell smaller than 48 px, which a glove would miss."""
-    found: list[str] = page.evaluate(
-        """() => [...document.querySelectorAll(".operator-top a, .alarms button, .rail a, .step-head a")]
-            .filter(one => one.getBoundingClientRect().height < 48 || one.getBoundingClientRect().width < 48)
-            .map(one => one.outerHTML)"""
-    )
-    return found
 
 
 def test_the_keyboard_goes_past_the_shell_and_is_seen(opened: Callable[..., Page]) -> None:

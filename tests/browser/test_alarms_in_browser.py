@@ -46,7 +46,7 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
     band(page, "high")
     expect(page.get_by_test_id("alarm-top")).to_contain_text(
         re.compile(
-            r"▲▲▲ HIGH TOO DEEP.*Tip 3\.0 mm past the planned depth\. Stop\. Withdraw the drill\.", re.DOTALL
+            r"▲▲▲ HIGH TOO DEEP.*Stop\. Withdraw the drill\. Tip 3\.0 mm past the planned depth\.", re.DOTALL
         )
     )
     page.wait_for_function("() => window.heard.length > 0")

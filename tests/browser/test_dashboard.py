@@ -216,7 +216,8 @@ def test_failure_looks_like_failure(page: Page, shared_theatre: Theatre) -> None
     expect(page.get_by_test_id("no-tracking")).to_be_visible()
     figures_are_gone(page)
     expect(page.get_by_test_id("verdict")).to_have_count(0)
-    # It is shown with its remedy, and is an alarm.
+    # It is an alarm, and one touch away with its remedy.
+    page.get_by_test_id("alarms-more").click()
     expect(page.get_by_test_id("alert")).to_contain_text("The camera has given no image for 2.0 s")
     expect(page.get_by_test_id("alert")).to_contain_text("Check the camera's cable")
     expect(page.get_by_test_id("alarms")).to_have_attribute("data-priority", "medium")

@@ -161,7 +161,8 @@ def test_nothing_of_the_supervisors_page_lies_outside_its_screen(
     supervised: Supervised, watch: Callable[..., WatchedPage], width: int, height: int
 ) -> None:
     page = opened(watch, supervised, "s1", "supervisor?lang=de", (width, height))
-    for fold in ("plan", "registration", "log"):
+    # What is signed lies over the rest of the page.
+    for fold in ("log", "plan", "registration"):
         page.get_by_test_id(f"fold-{fold}").locator("summary").click()
     expect(page.get_by_test_id("sign-registration")).to_be_visible()
     assert page.evaluate("document.documentElement.scrollWidth") <= width
@@ -170,6 +171,21 @@ def test_nothing_of_the_supervisors_page_lies_outside_its_screen(
         assert box is not None
         assert min(box["width"], box["height"]) >= 48, button.inner_text()
     save_screenshot(page, f"supervisor-{width}", is_full_page=True)
+
+
+@pytest.mark.parametrize(("width", "height"), [(1366, 768), (390, 844)])
+def test_hold_marks_and_signatures_are_on_the_first_screen(
+    supervised: Supervised, watch: Callable[..., WatchedPage], width: int, height: int
+) -> None:
+    page = opened(watch, supervised, "s1", "supervisor", (width, height))
+    for name in ("video", "hold-ask", "tool-point", "tool-pen", "tool-arrow", "tool-circle"):
+        expect(page.get_by_test_id(name)).to_be_in_viewport(ratio=1)
+    for what in ("plan", "registration"):
+        page.get_by_test_id(f"fold-{what}").locator("summary").click()
+        expect(page.get_by_test_id(f"cosign-{what}")).to_be_in_viewport(ratio=1)
+        expect(page.get_by_test_id("hold-ask")).to_be_in_viewport(ratio=1)
+        save_screenshot(page, f"supervisor-signs-{what}-{width}")
+    assert page.evaluate("scrollY") == 0
 
 
 def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(

@@ -51,7 +51,7 @@ def test_the_words_are_german_on_a_german_page(theatre: Theatre, watch: Watch) -
     theatre.tell("breach")
     headline(page, "✖ DURCH MEDIALE WAND 0.8 mm", "danger")
     expect(page.get_by_test_id("alarm-top")).to_contain_text(
-        "Bohrer 0.8 mm durch die mediale Wand in 29.0 mm Tiefe. Anhalten. Bohrer zurückziehen."
+        "Anhalten. Bohrer zurückziehen. Bohrer 0.8 mm durch die mediale Wand in 29.0 mm Tiefe."
     )
 
 
@@ -87,7 +87,7 @@ def test_a_breach_from_the_path_to_its_acknowledgement(page: Page, shared_theatr
     headline(page, "✖ THROUGH MEDIAL WALL 0.8 mm", "danger")
     alarm = page.get_by_test_id("alarm-top")
     expect(alarm).to_contain_text(
-        "Drill 0.8 mm through the medial wall at 29.0 mm depth. Stop. Withdraw the drill."
+        "Stop. Withdraw the drill. Drill 0.8 mm through the medial wall at 29.0 mm depth."
     )
     save_screenshot(page, "verdict-breach")
     shared_theatre.tell("hidden")

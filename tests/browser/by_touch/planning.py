@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.by_touch.tablet import MIN_TARGET_PX, Tablet
+from tests.browser.by_touch.tablet import Tablet
+from tests.browser.small_targets import GLOVE_PX
 
 PX_PER_MM = """() => {
     const ruler = document.querySelector(".planes-large .slice-ruler");
@@ -41,7 +42,7 @@ def moved_and_undone(tablet: Tablet) -> None:
     tablet.tap("move-channel")
     knob = tablet.page.get_by_test_id("handle-entry").locator(".draw-handle-touch").bounding_box()
     assert knob is not None
-    assert min(knob["width"], knob["height"]) >= MIN_TARGET_PX
+    assert min(knob["width"], knob["height"]) >= GLOVE_PX
     tablet.tap("channel-right")
     tablet.tap("channel-right")
     tablet.tap("keep-channel")

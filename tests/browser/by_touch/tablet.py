@@ -7,19 +7,12 @@ from typing import Any
 
 from playwright.sync_api import Browser, Locator, Page, ViewportSize, expect
 
+from tests.browser.small_targets import GLOVE_PX, small_targets
 from tests.browser.theatre import WatchedPage, save_screenshot
 
 LANDSCAPE: ViewportSize = {"width": 1180, "height": 820}
 UPRIGHT: ViewportSize = {"width": 800, "height": 1280}
 PHONE: ViewportSize = {"width": 390, "height": 844}
-MIN_TARGET_PX = 48.0
-# A checkbox is hit by its label; text without an action may be small.
-SMALL_TARGETS = f"""() => [...document.querySelectorAll("main :is(button, a, input, select, summary)")]
-    .filter(one => one.type !== "file" && one.checkVisibility())
-    .map(one => [/radio|checkbox/.test(one.type) ? one.labels[0] : one, one])
-    .map(([target, one]) => [target.getBoundingClientRect(), one])
-    .filter(([box]) => box.width > 0 && Math.min(box.width, box.height) < {MIN_TARGET_PX - 0.5})
-    .map(([box, one]) => `${{box.width}} x ${{box.height}}: ${{one.outerHTML.slice(0, 160)}}`)"""
 # What the next step needs: what to do, the picture, what is measured so far, and the main buttons.
 MAIN_PATH = """main :is(.step-said, .video-stage, .planes-large, .newest, .missing, .capture, .outcome,
     .measure:has(.measure-bar)), .step-actions button"""
@@ -111,7 +104,8 @@ class Tablet:
             self.page.set_viewport_size(size)
             self.page.evaluate(TO_THE_TOP)
             save_screenshot(self.page, f"operator-{name}-{way}", is_full_page=True)
-            self.faults.extend(f"{name}, {way}: small: {one}" for one in self.page.evaluate(SMALL_TARGETS))
+            small = small_targets(self.page, min_px=GLOVE_PX, within="main")
+            self.faults.extend(f"{name}, {way}: {one}" for one in small)
             if self.page.evaluate(WIDER_THAN_SCREEN):
                 self.faults.append(f"{name}, {way}: wider than the screen")
         self.faults.extend(f"{name}: out of sight: {one}" for one in self.page.evaluate(OUT_OF_SIGHT))

@@ -16,6 +16,7 @@ from urllib.request import urlopen
 from playwright.sync_api import Browser, BrowserContext, ViewportSize, sync_playwright
 from playwright.sync_api import Error as PlaywrightError
 
+from tests.browser.made_up_ct import answer_ct
 from tests.browser.screenshots.contact_sheet import Picture, contact_sheet
 from tests.browser.screenshots.page_faults import page_faults
 from tests.browser.screenshots.states import STAGES, Stage, State, click
@@ -91,10 +92,10 @@ class Photographer:
             color_scheme="light" if self._theme == "light" else "dark",
         )
         context.set_default_timeout(PATIENCE_MS)
-        choices = json.dumps({"theatre": self._theme, "pages": self._theme})
-        context.add_init_script(f"localStorage.setItem('coaxial.theme', {json.dumps(choices)})")
+        context.add_init_script(f"localStorage.setItem('coaxial.theme', {json.dumps(self._theme)})")
         if state.person:
             context.add_cookies([{"name": "person", "value": state.person, "url": address}])
+            context.route("**/api/navigation/ct", answer_ct)
         elif not state.has_real_limits:
             with urlopen(f"{address}/api/dashboard", timeout=60) as answer:  # noqa: S310  our own server
                 said = json.load(answer)

@@ -1,5 +1,5 @@
 // Layout faults of the displayed page that a machine can find, as sentences.
-(minTargetPx) => {
+() => {
     const faults = new Set();
     const name = (element) => {
         const { testid } = element.dataset ?? {};
@@ -71,11 +71,6 @@
         .map(({ one, target }) => ({ one, target, box: target.getBoundingClientRect() }))
         .map((found) => ({ ...found, seen: clipped(found.target, found.box).seen }))
         .filter(({ seen }) => seen.width > 1 && seen.height > 1);
-    for (const { one, box } of targets) {
-        if (Math.min(box.width, box.height) < minTargetPx - 0.5) {
-            faults.add(`small: ${name(one)} has ${Math.round(box.width)} x ${Math.round(box.height)} px`);
-        }
-    }
     for (const [index, first] of targets.entries()) {
         for (const second of targets.slice(index + 1)) {
             if (first.target.contains(second.target) || second.target.contains(first.target)) continue;

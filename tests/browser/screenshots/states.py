@@ -62,6 +62,7 @@ class Stage:
 
 LIVE_VIDEO = "[data-testid=video][data-live=true]"
 LIVE_NUMBERS = "[data-testid=numbers][data-live=true]"
+ALERT = "[data-testid=alert]"
 STEPS = ("case", "camera", "tool", "plan", "register", "check", "navigate", "recordings", "report", "people")
 WAYS = ("points", "needles", "sweep", "nudges")
 
@@ -118,14 +119,17 @@ THEATRE_STATES = (
     State(name="theatre-scene", path="theatre?", order="path", clicks=("tile-scene",), ready=LIVE_VIDEO),
     State(name="theatre-unseen", path="theatre", order="unseen", ready="[data-testid=no-tracking]"),
     State(name="theatre-uncalibrated", path="theatre", order="bare", ready="[data-testid=no-tracking]"),
-    State(name="theatre-camera-lost", path="theatre", order="lost", ready="[data-testid=alert]"),
+    State(name="theatre-camera-lost", path="theatre", order="lost", clicks=("alarms-more",), ready=ALERT),
     State(
         name="theatre-camera-lost-german",
         path="theatre?lang=de",
         order="lost",
-        ready="[data-testid=alert]",
+        clicks=("alarms-more",),
+        ready=ALERT,
     ),
-    State(name="supervisor-camera-lost", path="supervisor", order="lost", ready="[data-testid=alert]"),
+    State(
+        name="supervisor-camera-lost", path="supervisor", order="lost", clicks=("alarms-more",), ready=ALERT
+    ),
     State(name="supervisor-breach", path="supervisor", order="breach", ready=".alarms[data-priority=high]"),
     State(name="supervisor-path", path="supervisor", order="path", ready=figure("wall", "within")),
     *(

@@ -17,7 +17,7 @@ import { CutCover, NoVolumeNote } from "./CutCover";
 import { useCuts } from "./CutsContext";
 import type { Cut, Wanted } from "./cutter";
 import { displayedDrill } from "./drill";
-import { cutVerdict, type CutVerdict } from "./cutVerdict";
+import { cutVerdict, type CutVerdict, type NoVolume, type VolumeState } from "./cutVerdict";
 import { overlayOf, PARTS } from "./overlay";
 import { drawPixels, paintOverlay } from "./paintCut";
 import { cutGrid, fieldOf, type CutName, type Pose } from "./planes";
@@ -161,6 +161,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
   });
 
   const t = texts.theatre.cuts;
+  const lacks = lackOf(verdict, volume);
   return (
     <Pane id={`cut-${name}`} title={t.title[name]} aside={tabs}>
       <div
@@ -206,7 +207,7 @@ export function CutPane({ name, tabs, tools }: CutPaneProps): ReactNode {
           <CutCover verdict={verdict} />
         </div>
       </div>
-      {verdict.state === "bare" && <NoVolumeNote volume={verdict.volume} />}
+      {lacks !== null && <NoVolumeNote volume={lacks} />}
       {name === "probe" && <Split ref={split} />}
     </Pane>
   );
@@ -262,6 +263,13 @@ function WindowButton(): ReactNode {
       {window in names ? names[window as keyof typeof names] : window}
     </button>
   );
+}
+
+/** Why there is no CT; also while the cut is covered, so that an alarm does not change its size. */
+function lackOf(verdict: CutVerdict, volume: VolumeState): NoVolume | null {
+  if (verdict.state === "bare") return verdict.volume;
+  const isKnown = volume.state !== "ready" && volume.state !== "loading";
+  return verdict.state === "covered" && isKnown ? volume : null;
 }
 
 /** State that the cover's texts depend on. */

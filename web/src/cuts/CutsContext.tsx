@@ -40,7 +40,8 @@ export function CutsProvider({ ctOnRequest = false, children }: CutsProviderProp
   const [window, setWindow] = useState(USUAL_WINDOW);
   const [aheadMm, setAheadMm] = useState(0);
   const { live, view } = useLive();
-  const channel = view.newest?.snapshot?.channel ?? null;
+  // Without a snapshot, as without a camera, the channel is unknown.
+  const channel = view.newest?.snapshot?.channel;
   const [isRequested, setRequested] = useState(!ctOnRequest);
   const { state, presets } = useVolume(channel, cutter, { isSupported: hasWorker, isRequested });
   const grey = presets[window] ?? USUAL_GREY;

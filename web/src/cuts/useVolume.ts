@@ -13,16 +13,20 @@ interface LoadedVolume {
   presets: Record<string, GreyWindow>;
 }
 
-/** The volume of this channel's CT, reloaded when channel or CT change. */
+/** The volume of this channel's CT, reloaded when channel or CT change; kept while the channel is unknown. */
 export function useVolume(
-  channel: ChannelMessage | null,
+  channel: ChannelMessage | null | undefined,
   cutter: Cutter,
   { isSupported, isRequested }: { isSupported: boolean; isRequested: boolean },
 ): LoadedVolume {
   const [loaded, setLoaded] = useState<LoadedVolume>({ state: { state: "loading" }, presets: {} });
   // Each message has a new channel object: an equal one is reused, so that nothing is fetched again.
-  const [wanted, setWanted] = useState(channel);
-  if (channel !== wanted && !(channel !== null && wanted !== null && isSamePlan(channel, wanted))) {
+  const [wanted, setWanted] = useState(channel ?? null);
+  if (
+    channel !== undefined &&
+    channel !== wanted &&
+    !(channel !== null && wanted !== null && isSamePlan(channel, wanted))
+  ) {
     setWanted(channel);
   }
   const ctId = wanted?.ct_id ?? null;

@@ -2,7 +2,6 @@ import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
 import { ConfirmRestart } from "../app/ConfirmRestart";
-import { AlertBand } from "../panes/AlertBand";
 import { ConsentQuestion } from "../recording/ConsentQuestion";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useTexts } from "../texts/TextsContext";
@@ -12,7 +11,6 @@ import { useProcedure } from "../app/procedure";
 import { WithStepActions } from "./StepActions";
 import { StepHead } from "./StepHead";
 import { StepRail } from "./StepRail";
-import { useBandHeight } from "./useBandHeight";
 
 /** The operator's view: the procedure step by step. */
 export function OperatorView(): ReactNode {
@@ -23,7 +21,6 @@ export function OperatorView(): ReactNode {
   // Before the first answer the next step is unknown; without one the page starts with the list of cases.
   const next =
     data === null ? (rejection === null ? null : "case") : ((data.case_id && data.next_step) ?? "case");
-  const band = useBandHeight<HTMLDivElement>();
   const page = pageAt(path) ?? PAGES.find((one) => one.step === next || one.name === next) ?? null;
   return (
     <div className="operator">
@@ -31,12 +28,9 @@ export function OperatorView(): ReactNode {
         {texts.operator.skip}
       </a>
       <OperatorTop />
-      <div className="operator-band" ref={band}>
-        <AlarmBand />
-      </div>
+      <AlarmBand />
       <ConfirmRestart />
       <ConsentQuestion />
-      <AlertBand />
       <div className="operator-body">
         <StepRail now={page} />
         <main id="step" className="step" tabIndex={-1}>

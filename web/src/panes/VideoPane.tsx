@@ -77,7 +77,6 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
       aside={
         <>
           <Moves />
-          <ConnectionNote />
           {tools}
           <p className="stamp" data-testid="video-stamp" ref={stamp} />
         </>
@@ -93,6 +92,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
           aria-label={texts.video.alt}
         />
         <VideoMarks />
+        <ConnectionNote />
         {over}
         <div className="when-stale" data-testid="video-cover">
           <VideoCover cause={cause} problem={problemsOf(view)[0]} />

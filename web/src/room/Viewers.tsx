@@ -33,7 +33,8 @@ export function Viewers(): ReactNode {
             {!one.is_you && <Looks pages={pageInFront(one)} text={(page) => shortLookText(page, all)} />}{" "}
             <span className="watching-role">{texts.role[one.role]}</span>
             {one.is_you && <span className="watching-role"> · {texts.you}</span>}
-            {one.line !== "good" && <em> · {texts.line[one.line]}</em>}
+            {/* Seen by its symbol and colour: words that come and go would move the page. */}
+            {one.line !== "good" && <em className="heard-only"> · {texts.line[one.line]}</em>}
           </li>
         ))}
       </ul>
@@ -53,6 +54,7 @@ export function ViewerLooks(): ReactNode {
         <li key={`${one.name} ${one.role} ${one.since}`}>
           <b>{one.name}</b> <span className="watching-role">{texts.role[one.role]}</span>
           {one.is_you && <span className="watching-role"> · {texts.you}</span>}
+          {one.line !== "good" && <em> · {texts.line[one.line]}</em>}
           <Looks pages={one.pages} text={(page) => lookText(page, all)} />
         </li>
       ))}

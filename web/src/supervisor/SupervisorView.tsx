@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { AlarmsAfterFirstMessage } from "../alarms/UnheardAlarms";
+import { AlarmsShown } from "../alarms/AlarmBand";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { CutsProvider } from "../cuts/CutsContext";
@@ -9,7 +9,6 @@ import { PictureSize } from "../live/PictureSize";
 import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
 import { AuditLog } from "../operator/people/AuditLog";
-import { AlertBand } from "../panes/AlertBand";
 import { EmptyState } from "../panes/EmptyState";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
@@ -54,13 +53,11 @@ export function SupervisorView(): ReactNode {
           <RecordingState />
           <ViewSwitch />
           <Viewers />
-          <PictureSize />
           <ThemeButton />
           <HelpButton place="supervisor" />
           <SignedIn />
         </header>
-        <AlarmsAfterFirstMessage />
-        <AlertBand />
+        <AlarmsShown />
         <Board />
       </div>
       <section className="supervisor-folds" aria-label={texts.theatre.more}>
@@ -70,7 +67,6 @@ export function SupervisorView(): ReactNode {
         <Fold id="looks" title={texts.room.what}>
           <ViewerLooks />
         </Fold>
-        <Signables />
         <Fold id="recordings" title={texts.operator.page.recordings}>
           <Recordings mayChange={false} />
         </Fold>
@@ -98,12 +94,16 @@ function Board(): ReactNode {
         </AfterFirstMessage>
         <MarksTools />
         <VideoPane />
-        <HoldPanel />
+        <div className="decisions">
+          <HoldPanel />
+          <Signables />
+        </div>
         <CutsProvider ctOnRequest={!isLoopback(location.hostname)}>
           <Tiles layout={layout} isWide={isWide} />
         </CutsProvider>
         <div className="board-foot">
           <AgesStrip />
+          <PictureSize />
           {isWide && <LayoutBar layouts={layouts} />}
         </div>
       </MarkingProvider>
@@ -120,14 +120,19 @@ function Signables(): ReactNode {
   const registration = signable?.find((one) => one.what === "registration") ?? null;
   return (
     <>
-      <Fold id="plan" title={own.plan.title} aside={<SignState signable={plan} />}>
+      <Fold id="plan" group="sign" title={own.plan.title} aside={<SignState signable={plan} />}>
         {plan === null ? (
           <EmptyState drawing="plan" sentence={isConnected ? own.plan.none : unheard} />
         ) : (
           <PlanPanel signable={plan} />
         )}
       </Fold>
-      <Fold id="registration" title={own.registration.title} aside={<SignState signable={registration} />}>
+      <Fold
+        id="registration"
+        group="sign"
+        title={own.registration.title}
+        aside={<SignState signable={registration} />}
+      >
         {registration === null ? (
           <EmptyState drawing="registration" sentence={isConnected ? own.registration.none : unheard} />
         ) : (

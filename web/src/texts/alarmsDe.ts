@@ -4,6 +4,7 @@ import type { Texts } from "./en";
 export const alarmsDe: Texts["alarms"] = {
   title: "Alarme",
   none: "Kein Alarm",
+  all: "Alle Alarme",
   unknown: "ALARME UNBEKANNT: Der Server antwortet nicht",
   acknowledge: "Quittieren",
   pause: "Ton 120 s pausieren",

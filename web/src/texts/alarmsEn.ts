@@ -4,6 +4,7 @@ import type { Texts } from "./en";
 export const alarmsEn: Texts["alarms"] = {
   title: "Alarms",
   none: "No alarm",
+  all: "All alarms",
   unknown: "ALARMS UNKNOWN: the server does not answer",
   acknowledge: "Acknowledge",
   pause: "Pause sound 120 s",

@@ -103,10 +103,11 @@ export interface Texts {
     | "guide",
     string
   >;
-  alerts: { title: string; remedy: string };
+  alerts: { remedy: string };
   alarms: Record<
     | "title"
     | "none"
+    | "all"
     | "unknown"
     | "acknowledge"
     | "pause"

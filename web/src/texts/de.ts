@@ -157,7 +157,7 @@ export const de: Texts = {
     plainVideo: "Einfaches Video für andere Bildschirme",
     guide: "Anleitung (englisch)",
   },
-  alerts: { title: "Meldungen", remedy: "Was zu tun ist:" },
+  alerts: { remedy: "Was zu tun ist:" },
   alarms: alarmsDe,
   ...reasonsDe,
   shell: shellDe,

@@ -159,7 +159,7 @@ export const en: Texts = {
     plainVideo: "Plain video for other screens",
     guide: "User guide",
   },
-  alerts: { title: "Alerts", remedy: "What to do:" },
+  alerts: { remedy: "What to do:" },
   alarms: alarmsEn,
   ...reasonsEn,
   shell: shellEn,

@@ -1,11 +1,9 @@
 import type { ReactNode } from "react";
-import { AlarmBand } from "../alarms/AlarmBand";
-import { AlarmsAfterFirstMessage } from "../alarms/UnheardAlarms";
+import { AlarmBand, AlarmsShown } from "../alarms/AlarmBand";
 import { useSession, type Role } from "../app/session";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { CutsProvider } from "../cuts/CutsContext";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
-import { AlertBand } from "../panes/AlertBand";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
 import { VideoPane } from "../panes/VideoPane";
@@ -37,9 +35,8 @@ export function TheatreView(): ReactNode {
         {texts.skip}
       </a>
       <TheatreTop layouts={layouts} />
-      {answersAlarms ? <AlarmBand /> : <AlarmsAfterFirstMessage />}
+      {answersAlarms ? <AlarmBand /> : <AlarmsShown />}
       <ConfirmRestart />
-      <AlertBand />
       {isFigures ? (
         <FiguresMain />
       ) : (

@@ -1,19 +1,8 @@
-// The theme of the shown view, for the style sheets and for Mantine.
+// The theme of all pages, for the style sheets and for Mantine.
 import { MantineProvider } from "@mantine/core";
 import { createContext, use, useLayoutEffect, useState, useSyncExternalStore, type ReactNode } from "react";
-import { useLocation } from "wouter";
-import { useSession } from "../app/session";
-import { viewAt } from "../app/views";
 import { theme as mantineTheme } from "./theme";
-import {
-  otherTheme,
-  placeOf,
-  storedThemes,
-  storeThemes,
-  themeOf,
-  type Place,
-  type ThemeName,
-} from "./themeChoice";
+import { otherTheme, storedTheme, storeTheme, themeOf, type ThemeName } from "./themeChoice";
 
 interface ThemeValue {
   theme: ThemeName;
@@ -24,18 +13,16 @@ const ThemeContext = createContext<ThemeValue | null>(null);
 const PREFERS_LIGHT = "(prefers-color-scheme: light)";
 
 export function ThemeProvider({ children }: { children: ReactNode }): ReactNode {
-  const [choices, setChoices] = useState(storedThemes);
+  const [chosen, setChosen] = useState(storedTheme);
   const prefersLight = useSyncExternalStore(onPreference, () => matchMedia(PREFERS_LIGHT).matches);
-  const place = usePlace();
-  const theme = themeOf(choices, place, prefersLight);
-  // Before the first paint, so that no page flashes in the other theme.
+  const theme = themeOf(chosen, prefersLight);
   useLayoutEffect(() => {
     document.documentElement.dataset["theme"] = theme;
   }, [theme]);
   const switchTheme = (): void => {
-    const next = { ...choices, [place]: otherTheme(theme) };
-    storeThemes(next);
-    setChoices(next);
+    const next = otherTheme(theme);
+    storeTheme(next);
+    setChosen(next);
   };
   return (
     <ThemeContext value={{ theme, switchTheme }}>
@@ -50,14 +37,6 @@ export function useTheme(): ThemeValue {
   const value = use(ThemeContext);
   if (value === null) throw new Error("useTheme must be used inside ThemeProvider");
   return value;
-}
-
-/** The place of the shown view; before the session is known, of the view in the address. */
-function usePlace(): Place {
-  const [path] = useLocation();
-  const { session } = useSession();
-  if (path === "/enter" || path === "/camera") return "pages";
-  return placeOf(viewAt(path, session.state === "in" ? session.who.role : "operator"));
 }
 
 function onPreference(onChange: () => void): () => void {

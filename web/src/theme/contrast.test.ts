@@ -2,7 +2,6 @@
 // controls that are focused or chosen.
 import { expect, test } from "vitest";
 import SHEET from "./tokens.css?raw";
-import { otherTheme, readThemes, themeOf } from "./themeChoice";
 
 /** Colours of the rule that begins with this selector. */
 function tokensOf(selector: string): Map<string, string> {
@@ -76,18 +75,4 @@ for (const [name, tokens] of Object.entries(THEMES)) {
 test("every colour of one theme is in the other, so that none is inherited by accident", () => {
   const own = (tokens: Map<string, string>): string[] => [...tokens.keys()].toSorted();
   expect(own(THEMES.light)).toEqual(own(THEMES.dark));
-});
-
-test("theatre is dark unless chosen; other pages are as the browser prefers", () => {
-  expect(themeOf({}, "theatre", true)).toBe("dark");
-  expect(themeOf({}, "pages", true)).toBe("light");
-  expect(themeOf({}, "pages", false)).toBe("dark");
-  expect(themeOf({ pages: "dark" }, "pages", true)).toBe("dark");
-  expect(themeOf({ theatre: "light", pages: "dark" }, "theatre", false)).toBe("light");
-  expect(otherTheme("light")).toBe("dark");
-});
-
-test("a stored choice is read, and what is no theme is ignored", () => {
-  expect(readThemes('{"pages":"light","theatre":"pink"}')).toEqual({ pages: "light" });
-  for (const stored of [null, "{", '"light"']) expect(readThemes(stored)).toEqual({});
 });

@@ -1,18 +1,10 @@
-// Which theme a page has: what was chosen in this browser, else its default. Pure but for the storage.
-import type { ViewName } from "../app/views";
+// Which theme all pages of this browser have: what was chosen, else what the browser prefers. Pure but for the storage.
+// `public/theme.js` applies the same rule before the first paint.
 
 export type ThemeName = "dark" | "light";
-/** The theatre's screens have a choice of their own: a bright ward says nothing about a dark theatre. */
-export type Place = "theatre" | "pages";
-export type ThemeChoices = Partial<Record<Place, ThemeName>>;
 
-export function placeOf(view: ViewName | null): Place {
-  return view === "theatre" ? "theatre" : "pages";
-}
-
-/** Theatre is dark unless chosen otherwise; other pages are as the browser prefers. */
-export function themeOf(choices: ThemeChoices, place: Place, prefersLight: boolean): ThemeName {
-  return choices[place] ?? (place === "pages" && prefersLight ? "light" : "dark");
+export function themeOf(chosen: ThemeName | null, prefersLight: boolean): ThemeName {
+  return chosen ?? (prefersLight ? "light" : "dark");
 }
 
 export function otherTheme(theme: ThemeName): ThemeName {
@@ -21,36 +13,24 @@ export function otherTheme(theme: ThemeName): ThemeName {
 
 const STORAGE_KEY = "coaxial.theme";
 
-export function storedThemes(): ThemeChoices {
+export function storedTheme(): ThemeName | null {
   try {
-    return readThemes(localStorage.getItem(STORAGE_KEY));
+    return readTheme(localStorage.getItem(STORAGE_KEY));
   } catch {
     // Storage is unavailable: same as on the first visit.
-    return {};
+    return null;
   }
 }
 
-export function storeThemes(choices: ThemeChoices): void {
+export function storeTheme(theme: ThemeName): void {
   try {
-    localStorage.setItem(STORAGE_KEY, JSON.stringify(choices));
+    localStorage.setItem(STORAGE_KEY, theme);
   } catch {
     // The choice then applies to this visit only.
   }
 }
 
 /** Reads what was stored, and ignores what is no theme. */
-export function readThemes(stored: string | null): ThemeChoices {
-  let value: unknown;
-  try {
-    value = JSON.parse(stored ?? "null");
-  } catch {
-    return {};
-  }
-  const choices: ThemeChoices = {};
-  if (typeof value !== "object" || value === null) return choices;
-  for (const place of ["theatre", "pages"] as const) {
-    const theme = (value as Record<string, unknown>)[place];
-    if (theme === "dark" || theme === "light") choices[place] = theme;
-  }
-  return choices;
+export function readTheme(stored: string | null): ThemeName | null {
+  return stored === "dark" || stored === "light" ? stored : null;
 }

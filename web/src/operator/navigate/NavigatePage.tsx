@@ -20,7 +20,6 @@ export function NavigatePage(): ReactNode {
   const { data } = useProcedure();
   return (
     <div className="registration" data-testid="navigate" data-may={data?.may_navigate}>
-      <MovementWarning />
       <Gates />
       <div className="board">
         <AfterFirstMessage loading={<LoadingNumbers />}>
@@ -31,6 +30,8 @@ export function NavigatePage(): ReactNode {
           <ChosenTile />
         </CutsProvider>
       </div>
+      {/* Below the picture, which an alarm must not move: the band of alarms states the same. */}
+      <MovementWarning />
       <SetupCheckNote />
       <div className="work">
         <Steadiness />

@@ -56,7 +56,7 @@ export function InstantView({ shown, images }: { shown: ShownInstant; images: nu
         <section aria-label={texts.alarms.title}>
           {instant?.alarms === null && <p className="soft">{own.alarmsUnknown}</p>}
           {instant?.alarms?.alarms.length === 0 && <p className="soft">{texts.alarms.none}</p>}
-          <ul className="alarms-shown-list" data-testid="review-alarms">
+          <ul className="alarms-list" data-testid="review-alarms">
             {instant?.alarms?.alarms.map((alarm) => (
               <li key={alarm.number} data-priority={alarm.priority} data-state={alarm.state}>
                 <span aria-hidden="true">{MARKS[alarm.priority]}</span>{" "}

@@ -4,6 +4,7 @@ export const operatorDe: OperatorTexts = {
   steps: "Schritte des Eingriffs",
   skip: "Zum Schritt springen",
   next: "Nächster Schritt",
+  at: "{at} von {all}",
   now: "jetzt",
   locked: "später",
   page: {

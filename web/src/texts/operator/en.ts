@@ -2,6 +2,7 @@ export const operatorEn = {
   steps: "Steps of the procedure",
   skip: "Skip to the step",
   next: "Next step",
+  at: "{at} of {all}",
   now: "next",
   locked: "not yet",
   page: {

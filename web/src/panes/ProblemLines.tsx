@@ -1,19 +1,20 @@
 import type { ReactNode } from "react";
+import type { CameraNoteMessage, LiveProblemMessage } from "../live/messages";
 import { sentence } from "../operator/parts/format";
 import { RemedyLink } from "../rest/RemedyLink";
-import { useLive } from "../live/LiveContext";
-import { useTexts } from "../texts/TextsContext";
 import { languageOf, textOf } from "../texts/text";
-import { noteOf, problemsOf } from "./problems";
+import { useTexts } from "../texts/TextsContext";
 
-/** Problems in the server's words, with their remedies; nothing without a problem. */
-export function AlertBand(): ReactNode {
+interface ProblemLinesProps {
+  problems: readonly LiveProblemMessage[];
+  note: CameraNoteMessage | null;
+}
+
+/** Problems in the server's words, with their remedies, and its recommendation about the camera. */
+export function ProblemLines({ problems, note }: ProblemLinesProps): ReactNode {
   const texts = useTexts();
-  const { view } = useLive();
-  const problems = view.link === "open" ? problemsOf(view) : [];
-  const note = view.link === "open" ? noteOf(view) : null;
   return (
-    <div className="alerts" role="region" aria-label={texts.alerts.title} aria-live="polite">
+    <>
       {problems.map((problem) => (
         <p className="alert" key={problem.code} data-testid="alert">
           <span aria-hidden="true">▲▲</span>
@@ -33,6 +34,6 @@ export function AlertBand(): ReactNode {
           <span>{textOf(note.remedy, texts)}</span>
         </p>
       )}
-    </div>
+    </>
   );
 }
