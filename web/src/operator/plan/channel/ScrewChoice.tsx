@@ -5,6 +5,7 @@ import {
   getPlanCatalogue,
   putPlanVertebraeByNameChannelsBySideScrew,
 } from "../../../api";
+import { formatExact } from "../../../live/rounding";
 import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
@@ -58,7 +59,7 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
           <Stepper
             name="diameter"
             label={texts.diameter}
-            value={`${screw.diameter_mm} mm`}
+            value={`${formatExact(screw.diameter_mm)} mm`}
             disabled={busy || catalogue === null}
             hasLess={neighbourOf(diameters, screw.diameter_mm, -1) !== null}
             hasMore={neighbourOf(diameters, screw.diameter_mm, 1) !== null}
@@ -70,7 +71,7 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
           <Stepper
             name="length"
             label={texts.length}
-            value={`${screw.length_mm} mm`}
+            value={`${formatExact(screw.length_mm)} mm`}
             disabled={busy || catalogue === null}
             hasLess={neighbourOf(lengths, screw.length_mm, -1) !== null}
             hasMore={neighbourOf(lengths, screw.length_mm, 1) !== null}

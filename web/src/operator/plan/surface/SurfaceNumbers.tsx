@@ -1,6 +1,6 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
-import { formatNumber } from "../../../live/rounding";
+import { formatCount, formatNumber } from "../../../live/rounding";
 import type { DocumentMessage } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
 import { vec3 } from "../slices/vectors";
@@ -32,7 +32,7 @@ export function SurfaceNumbers({ surface }: { surface: Surface }): ReactNode {
         </div>
         <div className="figure">
           <dt>{texts.faces}</dt>
-          <dd>{Number(content["faces"]).toLocaleString(document.documentElement.lang)}</dd>
+          <dd>{formatCount(Number(content["faces"]))}</dd>
         </div>
         {low !== null && high !== null && (
           <div className="figure">
