@@ -25,7 +25,7 @@ MOVED = (
     "and by 1.20 mm at most (allowed 1)"
 )
 # Phrases that the code composes of parts.
-JOINED = {"faults", "may", "misfit", "pixel_count"}
+JOINED = {"cut_ends", "faults", "may", "misfit", "pixel_count", "uncovered_corners"}
 
 
 def fields(template: str) -> list[tuple[str, str, str]]:

@@ -31,7 +31,6 @@ export const slicesDe: SlicesTexts = {
     voxels: "Voxel",
     spacing: "Abstand",
     madeBy: "Gesendet von",
-    leftOut: "ausgelassen",
     other: "Anderes CT senden …",
   },
   slices: {

@@ -3,14 +3,10 @@ import type { ReactNode } from "react";
 import { formatCount, formatNumber } from "../../../live/rounding";
 import type { DocumentMessage } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
+import { Remarks, type Remark } from "../../parts/Remarks";
 import { vec3 } from "../slices/vectors";
 
 type Surface = DocumentMessage;
-
-interface Remark {
-  message: string;
-  remedy: string;
-}
 
 /** Source, size and warnings of the surface. */
 export function SurfaceNumbers({ surface }: { surface: Surface }): ReactNode {
@@ -47,11 +43,7 @@ export function SurfaceNumbers({ surface }: { surface: Surface }): ReactNode {
           </div>
         )}
       </dl>
-      {remarks.map((one) => (
-        <Alert key={one.message} className="consequence" title={one.message}>
-          {one.remedy}
-        </Alert>
-      ))}
+      <Remarks remarks={remarks} />
     </div>
   );
 }
