@@ -161,11 +161,21 @@ class ScrewProposalMessage(Message):
     length_mm: float
 
 
+class ScrewRangeMessage(Message):
+    """A product line: every of its diameters in every of its lengths."""
+
+    name: str
+    diameters_mm: list[float]
+    lengths_mm: list[float]
+
+
 class CatalogueMessage(Message):
     """Screw catalogue of the settings: every diameter in every length."""
 
     diameters_mm: list[float]
     lengths_mm: list[float]
+    ranges: list[ScrewRangeMessage]
+    """Product lines by name, as in the settings; empty without any."""
     min_landmarks: int
     """Minimum number for a registration by landmarks."""
 

@@ -11,7 +11,7 @@ import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 import type { PlannedChannel } from "../state/shape";
 import { Stepper } from "../Stepper";
-import { neighbourOf } from "./catalogue";
+import { neighbourOf, rangesWith } from "./catalogue";
 import { ClearanceNote } from "./ClearanceNote";
 import { ScrewNumbers } from "./ScrewNumbers";
 
@@ -28,6 +28,7 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
   const catalogue = useQuery((signal) => getPlanCatalogue({ signal })).data;
   const diameters = catalogue?.diameters_mm ?? [];
   const lengths = catalogue?.lengths_mm ?? [];
+  const ranges = catalogue?.ranges ?? [];
   const path = { name: vertebra, side: planned.side };
   const screw = planned.screws[0] ?? null;
   const choose = (size: { diameter_mm: number; length_mm: number } | null): void => {
@@ -80,6 +81,11 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
               if (length_mm !== null) choose({ diameter_mm: screw.diameter_mm, length_mm });
             }}
           />
+          {ranges.length > 0 && (
+            <p className="soft" data-testid="screw-ranges">
+              {texts.range}: {rangesWith(ranges, screw).join(", ") || texts.noRange}
+            </p>
+          )}
           <ScrewNumbers screw={screw} />
           <ClearanceNote vertebra={vertebra} side={planned.side} />
           <div className="buttons">
