@@ -63,7 +63,8 @@ def german(browser: Browser, stage: Stage, person: str = "") -> Iterator[Browser
     else:
         with urlopen(f"{address}/api/dashboard", timeout=60) as answer:  # noqa: S310  our own server
             said = json.load(answer)
-        said["limits"]["pose_stale_after_ms"] = 600_000
+        for what in ("pose", "video"):
+            said["limits"][f"{what}_stale_after_ms"] = 600_000
         context.route("**/api/dashboard", lambda route: route.fulfill(json=said))
     yield context
     context.close()

@@ -3,6 +3,7 @@
 import base64
 import hashlib
 import os
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -113,6 +114,21 @@ def test_a_failed_build_of_the_guide_is_said_with_the_end_of_its_log(tmp_path: P
     assert "link to &lt;nowhere&gt; is dead" in answer.text
     assert "first line" not in answer.text
     assert "make docs" in answer.text
+
+
+def test_the_build_after_a_start_states_its_process_and_then_whether_it_failed(tmp_path: Path) -> None:
+    script = Path(__file__).parents[3] / ".make" / "build-guide"
+    state = tmp_path / ".venv" / "log" / "guide.state"
+    state.parent.mkdir(parents=True)
+
+    def build(*command: str) -> None:
+        subprocess.run(["sh", str(script), *command], cwd=tmp_path, check=True)
+
+    build("sh", "-c", "test $PPID = $(cat .venv/log/guide.state) && touch built")
+    assert (tmp_path / "built").exists(), "the state has the process that builds"
+    assert not state.exists()
+    build("false")
+    assert state.read_text() == "failed\n"
 
 
 def test_the_installed_guide_comes_before_the_one_in_the_checkout(built: Path, tmp_path: Path) -> None:
