@@ -189,13 +189,14 @@ clean: ## delete all build output, but no case
 ready:
 	@$(MAKE) --jobs=3 $(STAMPS)/project $(STAMPS)/page $(STAMPS)/warm
 
-# The kernels are compiled in the background while the server shows its page and the progress. This does not use make's
-# jobs, because make would wait for them.
+# The kernels are compiled in the background while the server shows its page and the progress, and then the guide is
+# built. This does not use make's jobs, because make would wait for them.
 .PHONY: ready-to-run
 ready-to-run: $(STAMPS)/place
 	@$(MAKE) $(STAMPS)/page & page=$$!; \
 	$(MAKE) $(STAMPS)/project; installed=$$?; \
-	[ $$installed -ne 0 ] || $(MAKE) --question $(STAMPS)/warm || nice $(MAKE) $(STAMPS)/warm >/dev/null 2>&1 & \
+	[ $$installed -ne 0 ] || $(MAKE) --question $(STAMPS)/warm $(STAMPS)/guide || \
+		nice sh .make/build-guide $(MAKE) --keep-going $(STAMPS)/warm $(STAMPS)/guide & \
 	wait $$page && exit $$installed
 
 $(STAMPS)/place: $(if $(SOUND),,anew)
@@ -225,7 +226,7 @@ $(STAMPS)/dev: requirements-dev.lock $(STAMPS)/project
 		sh .make/install requirements-dev.lock
 	@touch $@
 
-# Only for `make docs`, so that a start does not wait for the guide.
+# After the start, or for `make docs`, so that a start does not wait for the guide.
 $(STAMPS)/docs-packages: requirements-docs.lock $(STAMPS)/project
 	@$(STEP) docs-packages "Installing what builds the guide" \
 		"Check whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \

@@ -23,7 +23,7 @@ from server.api.documentation import DocumentedApi, documentation_router
 from server.api.drillings import drillings_router
 from server.api.errors import install_errors, rejections
 from server.api.gates import gates_router
-from server.api.guide import guide_folder, is_guide, mount_guide
+from server.api.guide import is_guide, mount_guide
 from server.api.health import health_router
 from server.api.jobs import jobs_router
 from server.api.labels import labels_router
@@ -216,7 +216,7 @@ def _add_streams(app: FastAPI, parts: AppParts, viewers: Viewers, video: Video, 
 
 def _mount_files(app: FastAPI, config: Config) -> None:
     """Mount the guide, then the page, which matches every path."""
-    mount_guide(app, folder=guide_folder())
+    mount_guide(app)
     mount_page(app, camera=config.camera.name, folder=page_folder())
 
 

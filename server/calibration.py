@@ -7,6 +7,7 @@ import numpy as np
 
 from tracker.camera.accuracy import AccuracyReport
 from tracker.camera.calibration import CalibrationReport, ViewReport
+from tracker.plan.document import plain
 
 ROW_COLUMNS = ("x1_mm", "y1_mm", "x2_mm", "y2_mm", "u1_px", "v1_px", "u2_px", "v2_px")
 # The longest usual arrow, as a part of the image's width.
@@ -47,9 +48,7 @@ def report_values(report: CalibrationReport) -> dict[str, object]:
             "held_out_rms_px": {str(model): rms for model, rms in report.choice.held_out_rms_px},
             "reason": report.choice.reason,
         },
-        "warnings": [
-            {"code": one.code, "message": one.message, "remedy": one.remedy} for one in report.warnings
-        ],
+        "warnings": [plain(one) for one in report.warnings],
     }
 
 

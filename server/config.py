@@ -342,15 +342,29 @@ class SupervisionConfig(Section):
     """Measured from the capture time of the annotated image, because patient and camera move."""
 
 
+ScrewDiameters: TypeAlias = Annotated[
+    list[Annotated[float, Field(gt=0.0, le=20.0)]], Field(min_length=1, max_length=100)
+]
+ScrewLengths: TypeAlias = Annotated[
+    list[Annotated[float, Field(gt=0.0, le=150.0)]], Field(min_length=1, max_length=100)
+]
+
+
+class ScrewRangeConfig(Section):
+    """A product line of screws, whose name the page shows beside a size that it offers."""
+
+    name: Annotated[str, Field(min_length=1, max_length=60)]
+    diameters_mm: ScrewDiameters
+    lengths_mm: ScrewLengths
+
+
 class PlanConfig(Section):
     """Available screws and their margins."""
 
-    screw_diameters_mm: Annotated[
-        list[Annotated[float, Field(gt=0.0, le=20.0)]], Field(min_length=1, max_length=100)
-    ] = [4.0, 4.5, 5.0, 5.5, 6.0, 6.5, 7.0, 7.5, 8.5]
-    screw_lengths_mm: Annotated[
-        list[Annotated[float, Field(gt=0.0, le=150.0)]], Field(min_length=1, max_length=100)
-    ] = [25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0]
+    screw_diameters_mm: ScrewDiameters = [4.0, 4.5, 5.0, 5.5, 6.0, 6.5, 7.0, 7.5, 8.5]
+    screw_lengths_mm: ScrewLengths = [25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0]
+    screw_ranges: Annotated[list[ScrewRangeConfig], Field(max_length=50)] = []
+    """Product lines by name; their sizes must be among those above."""
     wall_margin_mm: Annotated[float, Field(ge=0.0, le=10.0)] = 0.5
     front_margin_mm: Annotated[float, Field(ge=0.0, le=50.0)] = 5.0
 

@@ -303,7 +303,27 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
         for lone, sentence in tool_mistakes(name, tool):
             key = f"tools.{name}.{lone}"
             mistakes.append(Mistake(where=where.of(("tools", name)), key=key, sentence=sentence))
-    return [*mistakes, *_missing_plugins(config, where)]
+    return [*mistakes, *_sizes_of_no_screw(config, where), *_missing_plugins(config, where)]
+
+
+def _sizes_of_no_screw(config: Config, where: _Where) -> list[Mistake]:
+    """Return a mistake for each product line with a size that the catalogue lacks."""
+    mistakes = []
+    for place, one in enumerate(config.plan.screw_ranges):
+        for name, sizes in (("diameters_mm", one.diameters_mm), ("lengths_mm", one.lengths_mm)):
+            offered = getattr(config.plan, f"screw_{name}")
+            missing = ", ".join(f"{size:g}" for size in sizes if size not in offered)
+            if missing:
+                key = f"plan.screw_ranges[{place}].{name}"
+                mistakes.append(
+                    Mistake(
+                        where=where.of(("plan", "screw_ranges")),
+                        key=key,
+                        sentence=f"'{key}' of {one.name!r} has {missing}, allowed: sizes of "
+                        f"'plan.screw_{name}'",
+                    )
+                )
+    return mistakes
 
 
 def _missing_plugins(config: Config, where: _Where) -> list[Mistake]:

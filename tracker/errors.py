@@ -1,4 +1,4 @@
-"""Exceptions with a stable code, a message with numbers, and a remedy.
+"""Exceptions and warnings with a stable code, a message with numbers, and a remedy.
 
     NavigationError
     ├── InvalidInput        a file, an image or a number is invalid
@@ -10,6 +10,7 @@ A marker that is not detected is a value, `tracker.pose.Unseen`, not an exceptio
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 
 class NavigationError(Exception):
@@ -50,3 +51,20 @@ class PlanError(NavigationError):
 
 class RegistrationError(NavigationError):
     """Plan and patient are not registered, or do not match."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Remark:
+    """A warning with a code, as an error has, about work that was completed.
+
+    Attributes:
+        code: stable identifier in UPPER_SNAKE_CASE, for machines.
+        message: what was found in numbers, without a final full stop.
+        remedy: what to do about it, in full sentences; empty if there is nothing to do.
+        context: the numbers of the message by name, each with its unit in the name.
+    """
+
+    code: str
+    message: str
+    remedy: str = ""
+    context: Mapping[str, object] = field(default_factory=dict)

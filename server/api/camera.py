@@ -14,6 +14,7 @@ from server.api.camera_messages import (
     CollectionRequest,
     board_of,
     collection_message,
+    worded_calibration,
 )
 from server.api.case_messages import DocumentMessage, document_message
 from server.api.errors import rejections
@@ -76,7 +77,8 @@ def _add_calibration(router: APIRouter, step: CameraStep) -> None:
 
         Its plots (residuals, coverage) are the files in `plots`: `/api/cases/{id}/files/{file}`.
         """
-        return document_message(step.calibration(), Current())
+        message = document_message(step.calibration(), Current())
+        return message.model_copy(update={"content": worded_calibration(message.content)})
 
     @router.post("/accuracy", status_code=201, responses=rejections(409, 422, 503, 507))
     def accuracy(requested: AccuracyRequest) -> DocumentMessage:

@@ -1,10 +1,12 @@
 """Messages of the camera calibration."""
 
+from collections.abc import Mapping
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
 from server.api.case_messages import DocumentMessage
+from server.api.ct_messages import list_of, mapping_of
 from server.api.requester import MadeBy
 from server.procedure.board_collection import BoardCollection, CollectionStatus
 from server.stream.messages import Message, ProblemMessage, problem_message
@@ -241,3 +243,16 @@ def collection_message(collection: BoardCollection) -> CollectionMessage:
         points_px=status.points_px.round(2).tolist(),
         problem=problem_message(status.problem),
     )
+
+
+def worded_calibration(content: Mapping[str, object]) -> dict[str, object]:
+    """Return a stored calibration with the reasons in its report in the language of the request."""
+    report = mapping_of(content.get("report"))
+    model = _with_worded_reason(mapping_of(report.get("model")), "model_reason")
+    views = [_with_worded_reason(mapping_of(one), "view_fault") for one in list_of(report.get("views"))]
+    return {**content, "report": {**report, "model": model, "views": views}}
+
+
+def _with_worded_reason(values: dict[str, object], phrase: str) -> dict[str, object]:
+    reason = str(values.get("reason", ""))
+    return {**values, "reason": phrase_text(phrase, reason)[requested_language()] if reason else ""}

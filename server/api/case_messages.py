@@ -1,5 +1,6 @@
 """Messages about cases and their documents."""
 
+from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import Field
@@ -19,7 +20,7 @@ from server.store import (
     Withdrawal,
 )
 from server.stream.messages import Message
-from server.texts import requested_language
+from server.texts import requested_language, worded
 
 Words = Annotated[str, Field(min_length=1, max_length=1000)]
 
@@ -184,7 +185,12 @@ def heading_message(heading: Heading, validity: Validity) -> HeadingMessage:
 
 def document_message(document: Document, validity: Validity) -> DocumentMessage:
     """Return the message of a document with its content."""
-    return DocumentMessage(heading=heading_message(document, validity), content=dict(document.content))
+    return DocumentMessage(heading=heading_message(document, validity), content=_worded(document.content))
+
+
+def _worded(content: Mapping[str, object]) -> dict[str, object]:
+    told = worded(content, requested_language())
+    return dict(told) if isinstance(told, Mapping) else {}
 
 
 def documents_message(entries: tuple[Entry, ...]) -> DocumentsMessage:

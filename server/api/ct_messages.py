@@ -7,6 +7,7 @@ from pydantic import Field
 
 from server.api.case_messages import HeadingMessage
 from server.api.jobs import JobMessage, job_message
+from server.api.remark_messages import RemarkMessage, stored_remark_messages
 from server.procedure.ct import CtUpload
 from server.stream.messages import Message
 from tracker.plan import Volume
@@ -63,7 +64,7 @@ class CtMessage(Message):
     presets: dict[str, WindowMessage]
     description: dict[str, object]
     """Series description from the DICOM header."""
-    warnings: list[str]
+    warnings: list[RemarkMessage]
     """Warnings for planning."""
     left_out: list[dict[str, object]]
 
@@ -124,7 +125,7 @@ def ct_message(heading: HeadingMessage, content: Mapping[str, object], volume: V
         planes={plane: reach_message(volume, plane) for plane in VIEWS},
         presets=preset_messages(),
         description=mapping_of(content.get("description")),
-        warnings=[str(one) for one in list_of(content.get("warnings"))],
+        warnings=stored_remark_messages(content.get("warnings")),
         left_out=[mapping_of(one) for one in list_of(content.get("left_out"))],
     )
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from server.api.case_messages import HeadingMessage
 from server.api.ct_messages import list_of, mapping_of
+from server.api.remark_messages import RemarkMessage, stored_remark_messages
 from server.live import Problem
 from server.procedure.plan.repository import ChannelLevel
 from server.stream.messages import Message, ProblemMessage, problem_message
@@ -40,7 +41,7 @@ class LabelsMessage(Message):
     """SHA-256 of the file of the labels."""
     vertebrae: list[VertebraLabelMessage]
     """From the head down."""
-    warnings: list[str]
+    warnings: list[RemarkMessage]
 
 
 class StartPointMessage(Message):
@@ -144,6 +145,6 @@ def labels_message(heading: HeadingMessage, content: Mapping[str, object]) -> La
             "contrast_hu": content.get("contrast_hu"),
             "sha256": content.get("sha256"),
             "vertebrae": [mapping_of(one) for one in list_of(content.get("vertebrae"))],
-            "warnings": list_of(content.get("warnings")),
+            "warnings": stored_remark_messages(content.get("warnings")),
         }
     )

@@ -20,6 +20,7 @@ from server.api.plan_messages import (
     PlanRequest,
     ReferenceRequest,
     ScrewProposalMessage,
+    ScrewRangeMessage,
     ScrewRequest,
     SeedRequest,
     SliceProposalMessage,
@@ -79,6 +80,7 @@ def _add_whole(router: APIRouter, step: PlanStep, min_landmarks: int) -> None:
         return CatalogueMessage(
             diameters_mm=list(step.catalogue.diameters_mm),
             lengths_mm=list(step.catalogue.lengths_mm),
+            ranges=[ScrewRangeMessage.model_validate(one, from_attributes=True) for one in step.screw_ranges],
             min_landmarks=min_landmarks,
         )
 

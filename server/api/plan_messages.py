@@ -12,6 +12,7 @@ from server.api.ct_messages import PointLps
 from server.api.requester import MadeBy
 from server.procedure.plan import Author, NoClearance, PlannedClearance, Proposal, StoredPlan
 from server.stream.messages import Message
+from server.texts import requested_language, worded
 from tracker.navigation.clearance import WallSource
 from tracker.plan import Landmark, PlanDocument, plan_to_mapping
 from tracker.plan.document import plain
@@ -160,11 +161,21 @@ class ScrewProposalMessage(Message):
     length_mm: float
 
 
+class ScrewRangeMessage(Message):
+    """A product line: every of its diameters in every of its lengths."""
+
+    name: str
+    diameters_mm: list[float]
+    lengths_mm: list[float]
+
+
 class CatalogueMessage(Message):
     """Screw catalogue of the settings: every diameter in every length."""
 
     diameters_mm: list[float]
     lengths_mm: list[float]
+    ranges: list[ScrewRangeMessage]
+    """Product lines by name, as in the settings; empty without any."""
     min_landmarks: int
     """Minimum number for a registration by landmarks."""
 
@@ -239,7 +250,7 @@ def plan_message(stored: StoredPlan) -> PlanMessage:
     active = stored.active
     return PlanMessage(
         heading=heading_message(stored.document, stored.validity),
-        plan=plan_to_mapping(stored.plan),
+        plan=_mapping(worded(plan_to_mapping(stored.plan), requested_language())),
         used=_used(stored.plan),
         active_channel=None
         if active is None

@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from server.api.case_messages import HeadingMessage, heading_message
+from server.api.remark_messages import RemarkMessage, remark_message
 from server.api.requester import MadeBy
 from server.config import Name, RegistrationConfig
 from server.procedure.registration import (
@@ -20,7 +21,6 @@ from server.procedure.registration import (
 )
 from server.procedure.registration_record import CheckRecord, NudgeRecord, RegistrationRecord, Value
 from server.stream.messages import Message, ProblemMessage, problem_message
-from tracker.plan.remark import Remark
 from tracker.registration import AnchoredTo, Method
 from tracker.registration.nudge import NudgeAxis, NudgeKind
 
@@ -137,14 +137,6 @@ class TargetMessage(Message):
     """Expected TRE (3-D RMS, Fitzpatrick 1998)."""
     stated_mm: float
     """Stated TRE (3-D RMS), compared with the limit."""
-
-
-class RemarkMessage(Message):
-    """A remark on the registration."""
-
-    code: str
-    message: str
-    remedy: str
 
 
 class PointLimitsMessage(Message):
@@ -272,11 +264,6 @@ def points_message(
         remarks=[] if fit is None else [remark_message(remark) for remark in fit.remarks],
         missing=missing,
     )
-
-
-def remark_message(remark: Remark) -> RemarkMessage:
-    """Return the message of a remark."""
-    return RemarkMessage.model_validate(remark, from_attributes=True)
 
 
 def capture_message(status: CaptureStatus) -> CaptureMessage:

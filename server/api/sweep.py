@@ -4,7 +4,8 @@ from fastapi import APIRouter, Response
 
 from server.api.case_messages import DocumentMessage, document_message
 from server.api.errors import rejections
-from server.api.registration_messages import ByRequest, RemarkMessage, ToolRequest, remark_message
+from server.api.registration_messages import ByRequest, ToolRequest
+from server.api.remark_messages import RemarkMessage, remark_message
 from server.live import Problem
 from server.procedure.registration import SweepStep
 from server.procedure.registration.sweep import SweepStatus

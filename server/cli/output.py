@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO
 
-from tracker.errors import InvalidInput, NavigationError
-from tracker.plan.remark import Remark
+from tracker.errors import InvalidInput, NavigationError, Remark
 
 PART = ".part"
 

@@ -9,9 +9,10 @@ import typer
 
 from server.cli.markups_output import write_markups
 from server.cli.options import SettingOptions, config_from_options
+from server.cli.output import problem_values
 from server.imaging.ct_reader import read_ct
 from server.slicer_file import channel_markup, screw_markup
-from tracker.errors import InvalidInput, PlanError
+from tracker.errors import InvalidInput, PlanError, Remark
 from tracker.plan import (
     Channel,
     PedicleMeasure,
@@ -66,7 +67,7 @@ def measure_in_file(options: MeasureOptions, *, as_json: bool) -> None:
         if channel is None and options.markups is not None:
             raise
         # The measurement is valid although no screw fits.
-        warnings.append(error.message)
+        warnings.append(Remark(code=error.code, message=error.message, remedy=error.remedy))
     if channel is not None and options.markups is not None:
         lines = [channel_markup(channel)]
         if screw is not None:
@@ -111,7 +112,7 @@ def _screw(
 
 
 def _mapping(
-    measure: PedicleMeasure, channel: Channel | None, screw: ScrewPlan | None, warnings: list[str]
+    measure: PedicleMeasure, channel: Channel | None, screw: ScrewPlan | None, warnings: list[Remark]
 ) -> dict[str, Any]:
     values = plain(measure)
     return {
@@ -127,11 +128,11 @@ def _mapping(
         "angles_against": FRAME,
         "channel": None if channel is None else plain(channel),
         "screw": None if screw is None else plain(screw),
-        "warnings": warnings,
+        "warnings": [problem_values(one) for one in warnings],
     }
 
 
-def _lines(measure: PedicleMeasure, screw: ScrewPlan | None, warnings: list[str]) -> list[str]:
+def _lines(measure: PedicleMeasure, screw: ScrewPlan | None, warnings: list[Remark]) -> list[str]:
     sd = measure.sd
     x, y, z = measure.isthmus_lps_mm
     lines = [
@@ -155,4 +156,4 @@ def _lines(measure: PedicleMeasure, screw: ScrewPlan | None, warnings: list[str]
             f"{tolerance.max_angle_deg:.1f} deg, "
             f"or {tolerance.both_mm:.1f} mm with {tolerance.both_deg:.1f} deg",
         ]
-    return [*lines, *(f"Note: {warning.removesuffix('.')}." for warning in warnings)]
+    return [*lines, *(f"Note: {one.message}. {one.remedy}".rstrip() for one in warnings)]

@@ -18,9 +18,8 @@ from server.config_file import load_config
 from server.imaging.meshes import read_mesh
 from server.point_limits import point_gate, point_settings
 from server.slicer_file import fixed_from_moving_in_itk, is_itk_name
-from tracker.errors import InvalidInput, RegistrationError
+from tracker.errors import InvalidInput, RegistrationError, Remark
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
-from tracker.plan.remark import Remark
 from tracker.registration.points import PointPairs, register_points
 from tracker.registration.surface import (
     ClosestPointQuery,

@@ -5,9 +5,8 @@ from typing import Any
 
 from server.cli.output import problem_values
 from server.number_format import finite
-from tracker.errors import RegistrationError
+from tracker.errors import RegistrationError, Remark
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
-from tracker.plan.remark import Remark
 
 COVARIANCE_OF = (
     "(d, r) in x_fixed = exp([r]x) R x_moving + t + d, with fixed_from_moving = [R t]: d in mm and r in rad, "

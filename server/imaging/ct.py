@@ -7,6 +7,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from tracker.errors import Remark
 from tracker.geometry import Array
 from tracker.plan import Volume
 from tracker.plan.slices import Slice
@@ -83,11 +84,11 @@ class Ct:
     Attributes:
         volume: Hounsfield units with their affine in LPS mm.
         series: description, without patient data.
-        warnings: warnings for the planning, each a sentence.
+        warnings: warnings for the planning.
         left_out: excluded files.
     """
 
     volume: Volume
     series: SeriesDescription
-    warnings: tuple[str, ...]
+    warnings: tuple[Remark, ...]
     left_out: tuple[ExcludedFiles, ...]

@@ -74,7 +74,7 @@ def draw_marker(image: Image, name: str, seen: Seen, *, scale: float) -> None:
     if not np.isfinite(corners).all():
         return
     stroke(image, [np.vstack([corners, corners[:1]])], WHITE, width_px=1.6 * scale)
-    words = f"{name}  {format_number(seen.score_ratio, decimals=2)}"
+    words = f"{name}  {format_number(100.0 * seen.score_ratio, decimals=0)} %"
     size = 20.0 * scale
     width = text_width_px(words, size_px=size, weight=REGULAR)
     height_px, width_px = image.shape[:2]

@@ -3,9 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from server.number_format import format_number
 from server.texts import Headline, Language, headline_of
-from server.texts.language import amount
+from server.texts.language import amount, number_text
 from server.texts.places import WALLS
 from tracker.navigation import Absent, Assessment, Figure, FigureName, NavigationSnapshot, Status, ToolPose
 from tracker.navigation.alarms import QUIET, AlarmSnapshot
@@ -82,10 +81,10 @@ def _reading(name: FigureName, figure: Figure, assessment: Assessment, language:
         hint = OUTSIDE[language] if figure.status is Status.OUTSIDE else ""
         hint = WALLS[language][wall] if wall is not None else hint
     elif name in (FigureName.ENTRY, FigureName.ANGLE) and figure.status is not Status.UNLIMITED:
-        hint = LIMIT[language].format(amount(figure.limit, "°" if unit == "°" else ""))
+        hint = LIMIT[language].format(amount(figure.limit, "°" if unit == "°" else "", language))
     return Reading(
         label=LABELS[language][name],
-        value=format_number(figure.value),
+        value=number_text(figure.value, language),
         unit=unit,
         hint=hint,
         status=figure.status,

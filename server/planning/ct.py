@@ -12,6 +12,7 @@ import cv2
 from server.imaging import Ct, SeriesDescription
 from server.jobs import Report
 from tracker.errors import InvalidInput
+from tracker.plan.document import plain
 from tracker.plan.slices import WINDOWS, Slice, shown
 
 VOXELS, PREVIEW = "voxels.npy", "preview.png"
@@ -59,7 +60,7 @@ def ct_content(ct: Ct) -> dict[str, object]:
         "shape_ijk": list(ct.volume.shape_ijk),
         "lps_from_ijk": ct.volume.lps_from_ijk.tolist(),
         "description": {name: description[name] for name in SERIES_FIELDS},
-        "warnings": list(ct.warnings),
+        "warnings": [plain(one) for one in ct.warnings],
         "left_out": [dataclasses.asdict(one) for one in ct.left_out],
     }
 

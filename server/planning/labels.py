@@ -45,5 +45,5 @@ def labels_content(placed: "PlacedLabels") -> dict[str, object]:
         "voxel_mm": placed.volume.voxel_mm,
         "contrast_hu": placed.contrast_hu,
         "vertebrae": [plain(one) for one in placed.vertebrae],
-        "warnings": list(placed.warnings),
+        "warnings": [plain(one) for one in placed.warnings],
     }

@@ -33,6 +33,7 @@ from server.recording_file.packing import Image
 from server.stream.alarm_messages import AlarmsMessage
 from server.stream.snapshot_messages import SnapshotMessage
 from server.texts import Language, Text
+from server.texts.language import number_text
 from tracker.errors import InvalidInput
 from tracker.navigation.alarms import QUIET
 
@@ -239,7 +240,7 @@ class _Pictures:
     def _card(self, size_wh_px: tuple[int, int], before_s: float, next_s: float) -> _Picture:
         """Return the card shown from the time at which the last image is too old until the next image."""
         at_s = before_s + self._max_gap_s
-        lasted = GAP[self._language].format(f"{next_s - before_s:.1f}")
+        lasted = GAP[self._language].format(number_text(next_s - before_s, self._language))
         card = draw_card(size_wh_px=size_wh_px, title=NO_IMAGE[self._language], lines=(lasted,))
         return _Picture(with_strip(card, self._time(at_s), language=self._language), at_s, is_gap=True)
 

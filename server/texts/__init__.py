@@ -21,11 +21,13 @@ another program reported are not translated.
 An error is raised in English. To translate one, add its template to the module of its area, its remedy to
 `errors/remedies` and the parts that depend on the case to `errors/phrases`, and give the error its values by
 name in `context`. `tests/server/texts/test_error_texts.py` requires German of each error that a page shows.
+A warning about completed work (`tracker.errors.Remark`) is stored with its code and values, and `worded`
+finds its sentences in the same way when a document is read.
 """
 
 from server.texts.alarms import AlarmText, alarm_text, alarm_title, with_unknown_presence
 from server.texts.camera_note import PREDICTED_VIDEO, CameraNote
-from server.texts.errors import error_reason, phrase_text, reason_of_error
+from server.texts.errors import error_reason, phrase_text, reason_of_error, worded
 from server.texts.flicker import flicker_note
 from server.texts.headline import Headline, Tone, headline_of
 from server.texts.language import LANGUAGES, NO_TEXT, Language, Text
@@ -68,4 +70,5 @@ __all__ = [
     "set_requested_language",
     "with_unknown_presence",
     "withdrawal_text",
+    "worded",
 ]

@@ -92,7 +92,7 @@ def _earlier(alarm: Alarm, language: Language, unix_offset_s: float) -> str:
     if peak is None:
         return ""
     return EARLIER[language].format(
-        value=_size(peak.measure, None), time=clock_text(peak.at_s + unix_offset_s)
+        value=_size(peak.measure, None, language), time=clock_text(peak.at_s + unix_offset_s)
     )
 
 
@@ -114,11 +114,11 @@ def _fields(alarm: Alarm, language: Language, unix_offset_s: float) -> Mapping[s
     peak = alarm.peak
     worst_site = None if peak is None else peak.site
     return {
-        "value": _size(alarm.measure, decimals),
+        "value": _size(alarm.measure, decimals, language),
         "limit": ""
         if alarm.measure is None
-        else amount(alarm.measure.limit, alarm.measure.unit, decimals=decimals),
-        "worst": "" if peak is None else _size(peak.measure, decimals),
+        else amount(alarm.measure.limit, alarm.measure.unit, language, decimals=decimals),
+        "worst": "" if peak is None else _size(peak.measure, decimals, language),
         "through": through_text(alarm.site, language),
         "worst_through": through_text(worst_site, language),
         "near": near_text(alarm.site, language),
@@ -135,15 +135,17 @@ def _fields(alarm: Alarm, language: Language, unix_offset_s: float) -> Mapping[s
     }
 
 
-def _size(measure: Measure | None, decimals: int | None) -> str:
+def _size(measure: Measure | None, decimals: int | None, language: Language) -> str:
     """Return the absolute value with its unit; the sentence states the side of the limit."""
-    return "" if measure is None else amount(abs(measure.value), measure.unit, decimals=decimals)
+    if measure is None:
+        return ""
+    return amount(abs(measure.value), measure.unit, language, decimals=decimals)
 
 
 def _depth(site: Site | None, language: Language) -> str:
     if site is None or not isfinite(site.depth_mm):
         return ""
-    depth = amount(site.depth_mm, "mm")
+    depth = amount(site.depth_mm, "mm", language)
     return {"en": f" at {depth} depth", "de": f" in {depth} Tiefe"}[language]
 
 

@@ -3,8 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from server.number_format import format_number
-from server.texts.language import Text
+from server.texts.language import Text, number_text, text_of
 from tracker.pose.predicted_video import VARIANCE_FACTOR
 
 
@@ -23,15 +22,15 @@ class CameraNote:
     remedy: Text
 
 
-_TIMES = format_number(math.sqrt(VARIANCE_FACTOR), decimals=1)
+_TIMES = text_of(lambda language: number_text(math.sqrt(VARIANCE_FACTOR), language))
 
 PREDICTED_VIDEO = CameraNote(
     code="VIDEO_PREDICTED",
     message={
         "en": f"The video codec predicts images from earlier ones (as H.264 does): all stated errors are "
-        f"{_TIMES} times as large.",
+        f"{_TIMES['en']} times as large.",
         "de": f"Der Videocodec sagt Bilder aus früheren voraus (wie H.264): alle Fehlerangaben sind "
-        f"{_TIMES}-mal so groß.",
+        f"{_TIMES['de']}-mal so groß.",
     },
     remedy={
         "en": "Set the camera to MJPEG, or to uncompressed images.",

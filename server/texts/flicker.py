@@ -1,8 +1,7 @@
 """Text about lamp flicker, with exposure times that avoid it."""
 
-from server.number_format import format_number
 from server.texts.camera_note import CameraNote
-from server.texts.language import Language, text_of
+from server.texts.language import Language, number_text, text_of
 from tracker.camera import LampFlicker
 
 CODE = "LAMP_FLICKER"
@@ -20,9 +19,9 @@ def flicker_note(flicker: LampFlicker, *, exposure_ms: float | None, rate_hz: fl
     """
 
     def message(language: Language) -> str:
-        percent = format_number(100.0 * flicker.depth_ratio, decimals=1)
+        percent = number_text(100.0 * flicker.depth_ratio, language)
         mains = OR[language].join(f"{mains_hz} Hz" for mains_hz in flicker.mains_hz)
-        exposure = "" if exposure_ms is None else format_number(exposure_ms, decimals=1)
+        exposure = "" if exposure_ms is None else number_text(exposure_ms, language)
         if language == "de":
             shown = f"Lampen flackern um {percent} % im Bild ({mains})"
             return f"{shown}, Belichtung {exposure} ms." if exposure else f"{shown}."
@@ -31,7 +30,7 @@ def flicker_note(flicker: LampFlicker, *, exposure_ms: float | None, rate_hz: fl
 
     def remedy(language: Language) -> str:
         choices = "; ".join(
-            f"{OR[language].join(format_number(ms, decimals=1) for ms in exposures)} ms ({mains_hz} Hz)"
+            f"{OR[language].join(number_text(ms, language) for ms in exposures)} ms ({mains_hz} Hz)"
             for mains_hz in flicker.mains_hz
             if (exposures := even_exposures_ms(mains_hz, exposure_ms=exposure_ms, rate_hz=rate_hz))
         )

@@ -146,10 +146,10 @@ def _title(assessment: Assessment, language: Language) -> str:
         words[verdict]
         .format(
             wall="" if wall is None else f"{WALLS[language][wall].upper()} ",
-            wall_mm=amount(abs(figures[FigureName.WALL].value), "mm"),
-            past_mm=amount(-figures[FigureName.TO_GO].value, "mm"),
-            error_mm=amount(figures[FigureName.ERROR].value, "mm", decimals=2),
-            risk=amount(figures[FigureName.RISK].value, "%"),
+            wall_mm=amount(abs(figures[FigureName.WALL].value), "mm", language),
+            past_mm=amount(-figures[FigureName.TO_GO].value, "mm", language),
+            error_mm=amount(figures[FigureName.ERROR].value, "mm", language, decimals=2),
+            risk=amount(figures[FigureName.RISK].value, "%", language),
             corrections=_corrections(
                 assessment.corrections, "°" if verdict is Verdict.CORRECT_ANGLE else "mm", language
             ),
@@ -163,7 +163,7 @@ def _corrections(corrections: tuple[Correction, ...], unit: str, language: Langu
     return ", ".join(
         TOWARDS[language][correction.towards]
         if isnan(correction.amount)
-        else f"{amount(correction.amount, unit)} {TOWARDS[language][correction.towards]}"
+        else f"{amount(correction.amount, unit, language)} {TOWARDS[language][correction.towards]}"
         for correction in corrections
     )
 
@@ -177,17 +177,17 @@ def _detail(assessment: Assessment, language: Language) -> str:
     if verdict is Verdict.CORRECT_END and isnan(end.value):
         return MISSES_DETAIL[language]
     return DETAILS[language][verdict].format(
-        entry_mm=amount(entry.value, "mm"),
-        entry_limit=amount(entry.limit, "mm"),
-        angle_deg=amount(angle.value, "°"),
-        angle_limit=amount(angle.limit, "°"),
-        wall_limit=amount(figures[FigureName.WALL].limit, "mm"),
-        risk_limit=amount(figures[FigureName.RISK].limit, "%"),
-        end=amount(end.value, "%"),
-        end_limit=amount(end.limit, "%"),
+        entry_mm=amount(entry.value, "mm", language),
+        entry_limit=amount(entry.limit, "mm", language),
+        angle_deg=amount(angle.value, "°", language),
+        angle_limit=amount(angle.limit, "°", language),
+        wall_limit=amount(figures[FigureName.WALL].limit, "mm", language),
+        risk_limit=amount(figures[FigureName.RISK].limit, "%", language),
+        end=amount(end.value, "%", language),
+        end_limit=amount(end.limit, "%", language),
         end_wall=wall_text(assessment.end_wall, language),
-        error_limit=amount(figures[FigureName.ERROR].limit, "mm", decimals=2),
-        min_error_mm=amount(assessment.min_error_95_mm, "mm", decimals=2),
+        error_limit=amount(figures[FigureName.ERROR].limit, "mm", language, decimals=2),
+        min_error_mm=amount(assessment.min_error_95_mm, "mm", language, decimals=2),
         move=move,
     )
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias, TypeGuard, TypeVar
 
-from server.texts.language import LANGUAGES, NO_TEXT, Language, Text, text_of
+from server.texts.language import LANGUAGES, NO_TEXT, Language, Text, fill, text_of
 from server.texts.steps import KINDS, REASONS, WITHDRAWALS
 from tracker.errors import NavigationError
 
@@ -74,7 +74,7 @@ def filled(template: Text, values: Mapping[str, object]) -> Text:
 
     def write(language: Language) -> str:
         own = {name: value[language] if _is_text(value) else value for name, value in values.items()}
-        return template[language].format_map(own)
+        return fill(template[language], own, language)
 
     return text_of(write)
 

@@ -59,7 +59,7 @@ def test_the_overview_names_the_figures_and_each_remedy_with_its_own(theatre: Th
         ]
     )
     page = watched.open("operator/navigate?lang=de")
-    expect(note).to_contain_text("Fehler am Isthmus mindestens 1.20 mm (95 %), 0.50 mm bis zur Wand")
+    expect(note).to_contain_text("Fehler am Isthmus mindestens 1,20 mm (95 %), 0,50 mm bis zur Wand")
 
 
 def test_without_a_check_the_overview_omits_it(theatre: Theatre, watch: Watch) -> None:

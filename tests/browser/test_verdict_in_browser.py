@@ -49,9 +49,9 @@ def headline(page: Page, words: str | re.Pattern[str], tone: str | re.Pattern[st
 def test_the_words_are_german_on_a_german_page(theatre: Theatre, watch: Watch) -> None:
     page = watch(theatre).open("/theatre?lang=de")
     theatre.tell("breach")
-    headline(page, "✖ DURCH MEDIALE WAND 0.8 mm", "danger")
+    headline(page, "✖ DURCH MEDIALE WAND 0,8 mm", "danger")
     expect(page.get_by_test_id("alarm-top")).to_contain_text(
-        "Anhalten. Bohrer zurückziehen. Bohrer 0.8 mm durch die mediale Wand in 29.0 mm Tiefe."
+        "Anhalten. Bohrer zurückziehen. Bohrer 0,8 mm durch die mediale Wand in 29,0 mm Tiefe."
     )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from tests.procedure.conftest import Server
 from tests.procedure.patient import DRILL, USED, Patient, ready
 from tests.procedure.test_camera_step import DOTS, open_a_case, png
+from tests.procedure.uploads import nifti, scanned
 
 POINTS = "/api/registration/points"
 GERMAN = {"Accept-Language": "de-DE,de;q=0.9,en;q=0.8"}
@@ -22,7 +23,8 @@ def in_both(server: Server, method: str, path: str, status: int, **sent: Any) ->
 
 
 def digits(text: str) -> list[str]:
-    return re.findall(r"\d+(?:\.\d+)?", text)
+    """Numbers of a sentence; German has decimal commas."""
+    return re.findall(r"\d+(?:\.\d+)?", re.sub(r"(?<=\d),(?=\d)", ".", text))
 
 
 def test_the_reasons_of_the_steps_are_in_the_requested_language(server: Server) -> None:
@@ -98,3 +100,18 @@ def test_a_collection_of_board_views_advises_and_rejects_in_the_requested_langua
     assert english["message"] == "the board was not found in sent: no dots that stand in a grid"
     assert german["message"] == "die Tafel wurde in sent nicht gefunden: keine Punkte, die ein Raster bilden"
     assert german["language"] == "de"
+
+
+def test_the_stored_warnings_of_a_ct_are_worded_in_the_language_of_each_request(server: Server) -> None:
+    open_a_case(server)
+    server.done(server.ask("POST", "/api/ct", 202, content=nifti(scanned()), params={"made_by": "M. Ito"}))
+    english, german = in_both(server, "GET", "/api/ct", 200)
+    assert [one["code"] for one in english["warnings"]] == [one["code"] for one in german["warnings"]]
+    unnamed = german["warnings"][-1]
+    assert english["warnings"][-1]["message"] == "a NIfTI file does not identify the patient"
+    assert unnamed["message"] == "eine NIfTI-Datei nennt den Patienten nicht"
+    assert unnamed["remedy"] == "Sicherstellen, dass dies das CT des Patienten ist."
+    # So is the document itself.
+    case, document = server.ask("GET", "/api/procedure", 200)["case_id"], english["heading"]["id"]
+    _, stored = in_both(server, "GET", f"/api/cases/{case}/documents/{document}", 200)
+    assert stored["content"]["warnings"][-1]["message"] == unnamed["message"]

@@ -42,7 +42,8 @@ def planned(server: Server, content: bytes) -> Any:  # noqa: ANN401  JSON
 
 
 def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
-    assert server.ask("GET", "/api/plan/catalogue", 200)["min_landmarks"] == 3
+    catalogue = server.ask("GET", "/api/plan/catalogue", 200)
+    assert (catalogue["min_landmarks"], catalogue["ranges"]) == (3, [])
     plan = planned(server, dicom_zip())
     assert plan["heading"]["current"]
     assert plan["heading"]["version"] == 5

@@ -117,6 +117,11 @@ TOOL = {
             id="reference-is-taken",
         ),
         pytest.param(
+            {"plan": {"screw_ranges": [{"name": "Slim", "diameters_mm": [4.5, 3], "lengths_mm": [40]}]}},
+            ["'plan.screw_ranges[0].diameters_mm' of 'Slim' has 3", "'plan.screw_diameters_mm'"],
+            id="product-line-with-a-size-of-no-screw",
+        ),
+        pytest.param(
             {"rehearsal": {"events": [{"kind": "earthquake", "at_s": 1}]}},
             ["earthquake", "camera_moves or patient_moves"],
             id="no-such-event",

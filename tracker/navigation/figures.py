@@ -93,7 +93,7 @@ def drill_figures(
     """
     is_beside = deviation.tip_offset_mm > channel.radius_mm + MAX_BESIDE_MM
     to_go = _to_go(deviation.remaining_mm, is_beside=is_beside)
-    depth = Figure(value=rounded(deviation.depth_mm), limit=rounded(channel.length_mm), status=to_go.status)
+    depth = _depth(deviation, to_go, rounded(channel.length_mm))
     if analysis is None:
         missing = (FigureName.WALL, FigureName.RISK, FigureName.END, FigureName.ERROR)
         return {
@@ -133,6 +133,16 @@ def _to_go(remaining_mm: float, *, is_beside: bool) -> Figure:
     value = rounded_down(remaining_mm)
     status = Status.OUTSIDE if is_beside else Status.THROUGH if value < 0.0 else Status.WITHIN
     return Figure(value=value, limit=0.0, status=status)
+
+
+def _depth(deviation: Deviation, to_go: Figure, length_mm: float) -> Figure:
+    """Return the depth that adds with what is to go to the displayed length.
+
+    Rounded for itself, it would read 21.9 of 47.0 mm with 25.0 mm to go. What is to go is rounded down, so
+    that the depth is rounded up.
+    """
+    shown_mm = rounded(length_mm - to_go.value) if isfinite(to_go.value) else rounded(deviation.depth_mm)
+    return Figure(value=shown_mm, limit=length_mm, status=to_go.status)
 
 
 def _wall(now: WallProximity, warning_distance_mm: float, *, sd_mm: float) -> Figure:

@@ -7,8 +7,9 @@ import numpy as np
 from server.imaging.dicom.frame import Frame
 from server.imaging.dicom.pixels import check_readable
 from server.imaging.dicom.series import check_one_patient, in_words
-from server.imaging.voxels import MAX_HU, MIN_HU, check_voxels
-from tracker.errors import InvalidInput
+from server.imaging.plausibility import OF_THIS_PATIENT, clipped_warning
+from server.imaging.voxels import check_voxels
+from tracker.errors import InvalidInput, Remark
 from tracker.plan.stack import EXPORT_AGAIN, MAX_JITTER_MM, Stack
 
 MAX_SIDE_PX = 8192
@@ -119,47 +120,102 @@ def _check_values(frames: list[Frame]) -> None:
         )
 
 
-def series_warnings(frames: list[Frame], stack: Stack, beyond: int) -> list[str]:
-    """Return warnings about a usable series, one sentence each."""
+def series_warnings(frames: list[Frame], stack: Stack, beyond: int) -> list[Remark]:
+    """Return warnings about a usable series."""
+    first = frames[0].shared
+    warnings = _position_warnings(frames, stack)
+    if any(frame.shared.is_lossy for frame in frames):
+        warnings.append(
+            Remark(
+                code="CT_COMPRESSED_LOSSILY",
+                message="the pixels were compressed lossily; thin walls of bone may be altered",
+            )
+        )
+    if any(frame.rescale_type in {"US", "HU_MOD"} for frame in frames):
+        warnings.append(
+            Remark(
+                code="CT_HU_NOT_DECLARED",
+                message="the scanner does not declare its values as plain Hounsfield units; they are used as "
+                "such",
+            )
+        )
+    if beyond:
+        warnings.append(clipped_warning(beyond))
+    if not first.patient_identity.identifier and not first.patient_identity.name:
+        warnings.append(
+            Remark(
+                code="CT_PATIENT_NOT_NAMED",
+                message="the files do not identify the patient",
+                remedy=OF_THIS_PATIENT,
+            )
+        )
+    return warnings
+
+
+def _position_warnings(frames: list[Frame], stack: Stack) -> list[Remark]:
     first = frames[0].shared
     warnings = []
     doubles = len(frames) - len(stack.slices)
     if doubles:
-        warnings.append(f"{doubles} slices are duplicates with equal pixels, and are used once.")
+        warnings.append(
+            Remark(
+                code="CT_SLICES_DUPLICATE",
+                message=f"{doubles} slices are duplicates with equal pixels, and are used once",
+                context={"doubles": doubles},
+            )
+        )
     if stack.jitter_mm > REPORTED_JITTER_MM:
         warnings.append(
-            f"Slice positions deviate by up to {stack.jitter_mm:.2f} mm from even spacing; up to "
-            f"{MAX_JITTER_MM:.1f} mm are accepted."
+            Remark(
+                code="CT_SPACING_VARIES",
+                message=f"slice positions deviate by up to {stack.jitter_mm:.2f} mm from even spacing; up to "
+                f"{MAX_JITTER_MM:.1f} mm are accepted",
+                context={"jitter_mm": stack.jitter_mm, "max_mm": MAX_JITTER_MM},
+            )
         )
     if stack.tilt_deg > 0.05:
         warnings.append(
-            f"The gantry was tilted by {stack.tilt_deg:.1f} deg; the tilted slices are used unchanged."
+            Remark(
+                code="CT_GANTRY_TILTED",
+                message=f"the gantry was tilted by {stack.tilt_deg:.1f} deg; the tilted slices are used "
+                "unchanged",
+                context={"tilt_deg": stack.tilt_deg},
+            )
         )
     if abs(abs(first.tilt_deg) - stack.tilt_deg) > 1.0 and first.tilt_deg:
         warnings.append(
-            f"The scanner states a gantry tilt of {first.tilt_deg:.1f} deg, but the slice positions give "
-            f"{stack.tilt_deg:.1f} deg; the positions are used."
+            Remark(
+                code="CT_TILT_CONTRADICTS",
+                message=f"the scanner states a gantry tilt of {first.tilt_deg:.1f} deg, but the slice "
+                f"positions give {stack.tilt_deg:.1f} deg; the positions are used",
+                context={"stated_deg": first.tilt_deg, "tilt_deg": stack.tilt_deg},
+            )
         )
     if max(stack.spacing_mm, first.thickness_mm) > THICK_MM:
         warnings.append(
-            f"The slices are {first.thickness_mm:.1f} mm thick and {stack.spacing_mm:.1f} mm apart; above "
-            f"{THICK_MM:.0f} mm heights and tilts of a pedicle are uncertain."
+            Remark(
+                code="CT_SLICES_THICK",
+                message=f"the slices are {first.thickness_mm:.1f} mm thick and {stack.spacing_mm:.1f} mm "
+                f"apart; above {THICK_MM:.0f} mm heights and tilts of a pedicle are uncertain",
+                context={
+                    "thickness_mm": first.thickness_mm,
+                    "spacing_mm": stack.spacing_mm,
+                    "max_mm": THICK_MM,
+                },
+            )
         )
-    if 0.0 < first.thickness_mm < stack.spacing_mm - 0.05:
+    gap_mm = stack.spacing_mm - first.thickness_mm
+    if first.thickness_mm > 0.0 and gap_mm > 0.05:
         warnings.append(
-            f"Between two slices {stack.spacing_mm - first.thickness_mm:.2f} mm were not scanned "
-            f"({first.thickness_mm:.2f} mm thick, {stack.spacing_mm:.2f} mm apart)."
+            Remark(
+                code="CT_SLICES_APART",
+                message=f"between two slices {gap_mm:.2f} mm were not scanned ({first.thickness_mm:.2f} mm "
+                f"thick, {stack.spacing_mm:.2f} mm apart)",
+                context={
+                    "gap_mm": gap_mm,
+                    "thickness_mm": first.thickness_mm,
+                    "spacing_mm": stack.spacing_mm,
+                },
+            )
         )
-    if any(frame.shared.is_lossy for frame in frames):
-        warnings.append("The pixels were compressed lossily; thin walls of bone may be altered.")
-    if any(frame.rescale_type in {"US", "HU_MOD"} for frame in frames):
-        warnings.append(
-            "The scanner does not declare its values as plain Hounsfield units; they are used as such."
-        )
-    if beyond:
-        warnings.append(
-            f"{beyond} voxels were outside {MIN_HU} to {MAX_HU} HU and were clipped to this range."
-        )
-    if not first.patient_identity.identifier and not first.patient_identity.name:
-        warnings.append("The files do not identify the patient; make sure that this is the patient's CT.")
     return warnings

@@ -14,7 +14,7 @@ from server.imaging.dicom.pixels import stored_images
 from server.imaging.dicom.series import check_one_patient, choose, describe, group_frames_by_series
 from server.imaging.plausibility import reject_beyond, value_warnings
 from server.imaging.voxels import Voxels, voxels_to_fill
-from tracker.errors import InvalidInput
+from tracker.errors import InvalidInput, Remark
 from tracker.plan import Volume
 from tracker.plan.stack import Stack, stack_slices
 
@@ -47,8 +47,22 @@ def read_dicom(
     description = next(one for one in describe(found) if one.series == frames[0].shared.series)
     warnings = [*series_warnings(frames, stack, beyond), *value_warnings(voxels.hu)]
     if len(found) > 1:
-        warnings.append(f"{len(found) - 1} other series were found and are not used.")
-    warnings += [f"Excluded: {one.reason} ({one.count})." for one in container.left_out]
+        others = len(found) - 1
+        warnings.append(
+            Remark(
+                code="CT_OTHER_SERIES",
+                message=f"{others} other series were found and are not used",
+                context={"others": others},
+            )
+        )
+    warnings += [
+        Remark(
+            code="CT_FILES_EXCLUDED",
+            message=f"excluded: {one.reason} ({one.count})",
+            context={"excluded_files": one.reason, "count": one.count},
+        )
+        for one in container.left_out
+    ]
     return Ct(
         volume=Volume(hu=voxels.hu, lps_from_ijk=stack.lps_from_ijk),
         series=description,

@@ -8,7 +8,7 @@ import numpy.typing as npt
 import scipy
 
 from server.imaging.labels.label_image import LabelImage, bounding_box
-from tracker.errors import InvalidInput
+from tracker.errors import InvalidInput, Remark
 from tracker.geometry import Array
 from tracker.plan import Volume
 from tracker.plan.labels import (
@@ -45,7 +45,7 @@ class PlacedLabels:
         volume: the part of the CT's grid that has labels.
         vertebrae: measured, from the head down.
         contrast_hu: mean HU inside of the labels less that around them.
-        warnings: one sentence each.
+        warnings: for the planning.
         source: "nifti" or "dicom".
         source_voxel_mm: size of the voxels of the file, before resampling.
     """
@@ -53,7 +53,7 @@ class PlacedLabels:
     volume: LabelVolume
     vertebrae: tuple[VertebraLabel, ...]
     contrast_hu: float
-    warnings: tuple[str, ...]
+    warnings: tuple[Remark, ...]
     source: str
     source_voxel_mm: tuple[float, float, float]
 
@@ -264,21 +264,45 @@ def _warnings(
     others: int,
     unnamed: bool,
     outside_ratio: float,
-) -> list[str]:
+) -> list[Remark]:
     warnings = []
     if unnamed:
         warnings.append(
-            "The file does not name its labels; their numbers were read as those of TotalSegmentator v2. "
-            "Compare the levels with the CT."
+            Remark(
+                code="LABELS_UNNAMED",
+                message="the file does not name its labels; their numbers were read as those of "
+                "TotalSegmentator v2",
+                remedy="Compare the levels with the CT.",
+            )
         )
-    cut = [one.level for one in vertebrae if one.is_cut]
+    cut = ", ".join(one.level for one in vertebrae if one.is_cut)
     if cut:
-        warnings.append(f"Cut by the border of the CT: {', '.join(cut)}.")
-    dropped = [one.level for one in measured if one not in vertebrae]
+        warnings.append(
+            Remark(code="LABELS_CUT", message=f"cut by the border of the CT: {cut}", context={"levels": cut})
+        )
+    dropped = ", ".join(one.level for one in measured if one not in vertebrae)
     if dropped:
-        warnings.append(f"Not used, because less than {MIN_ML:g} ml lie in the CT: {', '.join(dropped)}.")
+        warnings.append(
+            Remark(
+                code="LABELS_TOO_SMALL",
+                message=f"not used, because less than {MIN_ML:g} ml lie in the CT: {dropped}",
+                context={"min_ml": MIN_ML, "levels": dropped},
+            )
+        )
     if outside_ratio > MAX_OVERLAP_RATIO:
-        warnings.append(f"{outside_ratio:.0%} of the labels lie outside of the CT.")
+        warnings.append(
+            Remark(
+                code="LABELS_PARTLY_OUTSIDE_CT",
+                message=f"{outside_ratio:.0%} of the labels lie outside of the CT",
+                context={"outside_ratio": outside_ratio},
+            )
+        )
     if others:
-        warnings.append(f"{others} labels are no vertebra and are not used.")
+        warnings.append(
+            Remark(
+                code="LABELS_OF_OTHER_PARTS",
+                message=f"{others} labels are no vertebra and are not used",
+                context={"others": others},
+            )
+        )
     return warnings

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import nibabel as nib
 import numpy as np
 
-from tracker.errors import InvalidInput
+from tracker.errors import InvalidInput, Remark
 from tracker.geometry import Array
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
@@ -22,11 +22,11 @@ class NiftiPlacement:
 
     Attributes:
         lps_from_ijk: (4, 4), in mm.
-        warnings: Warnings about it, one sentence each.
+        warnings: Warnings about it.
     """
 
     lps_from_ijk: Array
-    warnings: tuple[str, ...]
+    warnings: tuple[Remark, ...]
 
 
 def placement_from_header(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> NiftiPlacement:
@@ -40,14 +40,20 @@ def placement_from_header(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) 
     # Read here, because nibabel fails on an unknown time unit in the same byte.
     unit, scale = UNITS.get(int(header["xyzt_units"]) % 8, ("unknown", 1.0))
     if scale != 1.0:
-        warnings.append(f"The file states its geometry in {unit}; it was multiplied by {scale:g} to mm.")
+        warnings.append(
+            Remark(
+                code="CT_UNIT_CONVERTED",
+                message=f"the file states its geometry in {unit}; it was multiplied by {scale:g} to mm",
+                context={"length_unit": unit, "scale": scale},
+            )
+        )
     affine = LPS_FROM_RAS @ ras
     affine[:3] *= scale
     _check_size(affine, unit)
     return NiftiPlacement(lps_from_ijk=affine, warnings=tuple(warnings))
 
 
-def _ras(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> tuple[Array, list[str]]:
+def _ras(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> tuple[Array, list[Remark]]:
     """Return the affine to use, as stored, with warnings about it."""
     s_code, q_code = int(header["sform_code"]), int(header["qform_code"])
     if s_code == 0 and q_code == 0:
@@ -99,7 +105,7 @@ def _determinant(affine: Array) -> float:
     return float(np.linalg.det(affine[:3, :3] / np.maximum(lengths, 1e-12))) if lengths.min() > 0.0 else 0.0
 
 
-def _compared(sform: Array, qform: Array, shape_ijk: tuple[int, ...]) -> list[str]:
+def _compared(sform: Array, qform: Array, shape_ijk: tuple[int, ...]) -> list[Remark]:
     """Return warnings about two affines of a file; they may differ in position, not in size or mirroring."""
     sizes = [np.linalg.norm(affine[:3, :3], axis=0) for affine in (sform, qform)]
     mirrored = _determinant(sform) * _determinant(qform) < 0.0
@@ -123,7 +129,14 @@ def _compared(sform: Array, qform: Array, shape_ijk: tuple[int, ...]) -> list[st
     difference_mm = float(np.linalg.norm(((sform - qform) @ corners)[:3], axis=0).max())
     if difference_mm <= 0.1:
         return []
-    return [f"The sform and qform of the NIfTI differ by up to {difference_mm:.1f} mm; the sform is used."]
+    return [
+        Remark(
+            code="CT_AFFINES_DIFFER",
+            message=f"the sform and qform of the NIfTI differ by up to {difference_mm:.1f} mm; the sform is "
+            "used",
+            context={"difference_mm": difference_mm},
+        )
+    ]
 
 
 def _check_size(affine: Array, unit: str) -> None:

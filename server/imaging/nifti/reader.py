@@ -17,9 +17,9 @@ from server.imaging.nifti.header import (
     decompressed,
     read_nifti_header,
 )
-from server.imaging.plausibility import reject_beyond, value_warnings
+from server.imaging.plausibility import OF_THIS_PATIENT, clipped_warning, reject_beyond, value_warnings
 from server.imaging.voxels import MAX_HU, MIN_HU, PADDING_HU, Voxels, voxels_to_fill
-from tracker.errors import InvalidInput
+from tracker.errors import InvalidInput, Remark
 from tracker.plan import Volume
 
 # Number of slices read at once; few, so that their values need little memory compared with the volume.
@@ -71,12 +71,22 @@ def read_nifti(entry: Entry, *, progress: Progress, first: FirstSlice, into: Pat
         reject_beyond(beyond, voxels.hu.size)
     warnings = [*header.place.warnings, *value_warnings(voxels.hu)]
     if missing:
-        warnings.append(f"{missing} voxels are NaN and were set to {PADDING_HU} HU.")
-    if beyond:
         warnings.append(
-            f"{beyond} voxels were outside {MIN_HU} to {MAX_HU} HU and were clipped to this range."
+            Remark(
+                code="CT_VALUES_NAN",
+                message=f"{missing} voxels are NaN and were set to {PADDING_HU} HU",
+                context={"missing": missing, "padding_hu": PADDING_HU},
+            )
         )
-    warnings.append("A NIfTI file does not identify the patient; make sure that this is the patient's CT.")
+    if beyond:
+        warnings.append(clipped_warning(beyond))
+    warnings.append(
+        Remark(
+            code="CT_PATIENT_NOT_NAMED",
+            message="a NIfTI file does not identify the patient",
+            remedy=OF_THIS_PATIENT,
+        )
+    )
     return Ct(
         volume=Volume(hu=voxels.hu, lps_from_ijk=header.place.lps_from_ijk),
         series=_described(header, entry),

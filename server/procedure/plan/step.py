@@ -87,6 +87,7 @@ class PlanStep:
         self._ct_provider = ct_provider
         self._front_margin_mm = config.front_margin_mm
         self.wall_margin_mm = config.wall_margin_mm
+        self.screw_ranges = tuple(config.screw_ranges)
         self.catalogue = ScrewCatalogue(
             diameters_mm=tuple(config.screw_diameters_mm), lengths_mm=tuple(config.screw_lengths_mm)
         )

@@ -17,6 +17,7 @@ from server.procedure.registration_record import ExpectedCovariance, Registratio
 from server.store import Document
 from tracker.errors import RegistrationError
 from tracker.geometry import inverse_covariance
+from tracker.plan.document import plain
 from tracker.registration.needles import TouchedPoint
 from tracker.registration.points import PointRegistration
 
@@ -246,5 +247,5 @@ def made_from(status: PointsStatus) -> dict[str, object]:
             }
             for error in target_errors(status.context, fit)
         ],
-        "remarks": [] if fit is None else [remark.message for remark in fit.remarks],
+        "remarks": [] if fit is None else [plain(remark) for remark in fit.remarks],
     }

@@ -19,6 +19,7 @@ from server.procedure.surface import SurfaceStep
 from server.store import Document
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
+from tracker.plan.document import plain
 from tracker.registration import AnchoredTo
 from tracker.registration.capture import TipSample
 from tracker.registration.points import PointPairs
@@ -224,7 +225,7 @@ class SweepStep(CollectingStep[SweepSession]):
                     "start_version": status.start.document.version,
                     "points": status.start.record.made_from.get("points", []),
                     "weakest": found.weakest_mode.description,
-                    "remarks": [remark.message for remark in found.remarks],
+                    "remarks": [plain(remark) for remark in found.remarks],
                     "sweep_in_anchor_mm": np.round(self.collection.points_mm, 3).tolist(),
                 },
                 from_s=self._from_s(status),

@@ -16,7 +16,7 @@ from string import Formatter
 from server.texts.errors.catalogue import MESSAGES, REMEDIES
 from server.texts.errors.phrases import PHRASES
 from server.texts.errors.phrases.system import SYSTEM_ERRORS
-from server.texts.language import Text
+from server.texts.language import Language, Text
 from server.texts.reason import Reason, as_is, filled
 from server.texts.steps import KINDS, METHODS, STEPS
 from tracker.errors import NavigationError
@@ -108,6 +108,7 @@ WORDS: Mapping[str, Mapping[str, Text]] = {
 }
 # A file may state any name in a phrase, and the time of a comparison grows faster than the length.
 MAX_PHRASE_LENGTH = 1000
+_REMARK = {"code", "message", "remedy", "context"}
 _NO_TEXT = re.compile(r"(?!)")
 
 
@@ -124,6 +125,29 @@ def error_reason(code: str, message: str, remedy: str, context: Mapping[str, obj
     if translated_message is None or translated_remedy is None:
         return Reason(code=code, message=as_is(message), remedy=as_is(remedy), is_translated=False)
     return Reason(code=code, message=translated_message, remedy=translated_remedy)
+
+
+def worded(stored: object, language: Language) -> object:
+    """Return what a document stores with its warnings in a language.
+
+    A warning (`Remark`) is stored with its code, its values and its English sentences. An older one, of which
+    only sentences are stored, stays as it is.
+    """
+    if isinstance(stored, Mapping):
+        if stored.keys() == _REMARK:
+            context = stored["context"]
+            why = error_reason(
+                str(stored["code"]),
+                str(stored["message"]),
+                str(stored["remedy"]),
+                context if isinstance(context, Mapping) else {},
+            )
+            return {**stored, "message": why.message[language], "remedy": why.remedy[language]}
+        return {key: worded(value, language) for key, value in stored.items()}
+    # Most lists are of numbers, and long.
+    if isinstance(stored, list) and any(isinstance(one, Mapping) for one in stored):
+        return [worded(one, language) for one in stored]
+    return stored
 
 
 def phrase_text(name: str, english: str) -> Text:

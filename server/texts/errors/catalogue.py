@@ -11,6 +11,7 @@ from server.texts.errors.procedure import PROCEDURE
 from server.texts.errors.process import PROCESS
 from server.texts.errors.recordings import RECORDINGS
 from server.texts.errors.registration import REGISTRATION
+from server.texts.errors.remarks import REMARKS
 from server.texts.errors.remedies import REMEDIES as OF_ERRORS
 from server.texts.errors.tool import TOOL
 from server.texts.language import Text
@@ -39,6 +40,7 @@ _PARTS = (
     LABELS,
     ACCESS,
     CERTIFICATE,
+    REMARKS,
 )
 MESSAGES: Mapping[str, tuple[Text, ...]] = {
     code: tuple(text for part in _PARTS for text in part.get(code, ()))

@@ -2,13 +2,15 @@
 
 import base64
 import hashlib
+import os
+import subprocess
 from pathlib import Path
 
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from server.api.guide import guide_folder, is_guide, mount_guide
+from server.api.guide import GuidePlaces, guide_folder, is_guide, mount_guide
 from server.security import SecurityHeaders
 from tests.server.security.guarded_app import guarded
 
@@ -27,10 +29,11 @@ def built(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def client_of(folder: Path | None) -> TestClient:
+def client_of(folder: Path | None, state: Path | None = None) -> TestClient:
     app = FastAPI(docs_url=None)
     app.add_middleware(SecurityHeaders)
-    mount_guide(app, folder=folder)
+    folders, states = (() if one is None else (one,) for one in (folder, state))
+    mount_guide(app, places=GuidePlaces(folders=folders, states=states))
     return TestClient(app, base_url="http://127.0.0.1:8000")
 
 
@@ -82,6 +85,50 @@ def test_a_missing_build_of_the_guide_states_how_to_build_it(address: str) -> No
     assert answer.status_code == 503
     assert "make docs" in answer.text
     assert "/api/docs" in answer.text
+
+
+def test_a_guide_that_is_being_built_is_said_so_and_served_once_it_is_there(tmp_path: Path) -> None:
+    folder, state = tmp_path / "site", tmp_path / "guide.state"
+    client = client_of(folder, state)
+    state.write_text(f"{os.getpid()}\n")
+    folder.mkdir()
+    (folder / "index.html").write_text(PAGE)
+    answer = client.get("/docs/camera/")
+    assert answer.status_code == 503
+    assert "is being built" in answer.text
+    assert "<script" not in answer.text
+    state.unlink()
+    assert client.get("/docs/").text == PAGE
+
+
+@pytest.mark.parametrize("stated", ["failed", "999999999", "9" * 40], ids=["failed", "ended", "no process"])
+def test_a_failed_build_of_the_guide_is_said_with_the_end_of_its_log(tmp_path: Path, stated: str) -> None:
+    state = tmp_path / "guide.state"
+    state.write_text(stated)
+    (tmp_path / "guide.txt").write_text(
+        "\n".join(["first line", *["more"] * 20, "link to <nowhere> is dead"])
+    )
+    answer = client_of(None, state).get("/docs/")
+    assert answer.status_code == 503
+    assert "Building it failed" in answer.text
+    assert "link to &lt;nowhere&gt; is dead" in answer.text
+    assert "first line" not in answer.text
+    assert "make docs" in answer.text
+
+
+def test_the_build_after_a_start_states_its_process_and_then_whether_it_failed(tmp_path: Path) -> None:
+    script = Path(__file__).parents[3] / ".make" / "build-guide"
+    state = tmp_path / ".venv" / "log" / "guide.state"
+    state.parent.mkdir(parents=True)
+
+    def build(*command: str) -> None:
+        subprocess.run(["sh", str(script), *command], cwd=tmp_path, check=True)
+
+    build("sh", "-c", "test $PPID = $(cat .venv/log/guide.state) && touch built")
+    assert (tmp_path / "built").exists(), "the state has the process that builds"
+    assert not state.exists()
+    build("false")
+    assert state.read_text() == "failed\n"
 
 
 def test_the_installed_guide_comes_before_the_one_in_the_checkout(built: Path, tmp_path: Path) -> None:

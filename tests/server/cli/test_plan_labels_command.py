@@ -32,7 +32,7 @@ def test_labels_are_listed_and_written_in_the_voxels_of_the_ct(folder: Path) -> 
     assert load_label_file(output, voxel_mm=1.5).levels == ("L3", "L4")
     text = CliRunner().invoke(app, words).output
     assert text.startswith("L3    62.")
-    assert "Note: The file does not name its labels" in text
+    assert "Note: the file does not name its labels" in text
 
 
 def test_names_that_contradict_positions_are_rejected(folder: Path) -> None:

@@ -79,7 +79,7 @@ def test_slices_lie_where_their_files_say(tmp_path: Path, stack: dict) -> None: 
 
 def test_a_tilted_gantry_is_reported(tmp_path: Path) -> None:
     ct = read_ct(made_ct(**STACKS["tilted-gantry"]).write(tmp_path))
-    assert any("tilted by 20.0 deg" in said for said in ct.warnings)
+    assert any("tilted by 20.0 deg" in said.message for said in ct.warnings)
 
 
 def test_slices_come_in_any_order_and_any_folder_among_other_files(tmp_path: Path) -> None:
@@ -160,14 +160,14 @@ def test_slices_that_are_there_twice_are_used_once(tmp_path: Path) -> None:
     folder = made.write(tmp_path)
     (folder / "copy").write_bytes(file_of(made.slices[1]))
     assert_whole(made, folder)
-    assert any("1 slices are duplicates" in said for said in read_ct(folder).warnings)
+    assert any("1 slices are duplicates" in said.message for said in read_ct(folder).warnings)
 
 
 def test_a_small_jitter_is_tolerated_and_reported(tmp_path: Path) -> None:
     made = made_ct()
     made.slices[2].ImagePositionPatient = [-10, 20, 304.05]
     ct = read_ct(made.write(tmp_path))
-    assert any("0.05 mm from even spacing" in said for said in ct.warnings)
+    assert any("0.05 mm from even spacing" in said.message for said in ct.warnings)
 
 
 def test_a_scout_takes_no_part(tmp_path: Path) -> None:

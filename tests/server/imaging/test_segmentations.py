@@ -133,8 +133,8 @@ def test_a_mask_named_after_its_vertebra_is_taken_in(tmp_path: Path) -> None:
 def test_a_file_without_names_is_read_with_a_warning(tmp_path: Path) -> None:
     placed = taken(tmp_path, numbered(valued(0, 5)))
     assert is_true(placed)
-    assert any("TotalSegmentator v2" in one for one in placed.warnings)
-    assert "1 labels are no vertebra and are not used." in placed.warnings
+    assert any("TotalSegmentator v2" in one.message for one in placed.warnings)
+    assert "1 labels are no vertebra and are not used" in [one.message for one in placed.warnings]
 
 
 def test_labels_of_a_coarser_and_turned_grid_are_resampled_by_nearest_neighbour(tmp_path: Path) -> None:

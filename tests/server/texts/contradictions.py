@@ -21,6 +21,7 @@ from tracker.navigation.alarms import AlarmState, Condition, Presence
 # From an image with a breach to its alarm: two images, or 80 ms and the next evaluation.
 MAX_UNANNOUNCED = 2
 INSTRUCTION = re.compile(r"Stop\.|Anhalten\.")
+DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 PHYSIOLOGICAL = {
     Condition.BREACH,
@@ -231,7 +232,7 @@ def _overlay(moment: Moment, snapshot: SnapshotMessage) -> None:
         shown: Sequence[FigureMessage] = [
             getattr(figures, name) for name in ("entry", "angle", "depth", "to_go", "wall")
         ]
-        assert [reading.value for reading in panel.readings] == [
+        assert [reading.value.replace(",", ".") for reading in panel.readings] == [
             NOT_KNOWN if figure.value is None else format_number(figure.value) for figure in shown
         ]
 
@@ -250,7 +251,7 @@ def _text(value: float, name: str) -> str:
 
 
 def _numbers(text: str) -> set[str]:
-    return set(NUMBER.findall(text))
+    return set(NUMBER.findall(DECIMAL_COMMA.sub(".", text)))
 
 
 def _digits(assessment: AssessmentMessage) -> set[str]:

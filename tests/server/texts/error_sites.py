@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-# Fields of `Problem`, which are given by name.
+# Fields of `Problem` and `Remark`, which are given by name.
 PROBLEM = ("code", "message", "remedy")
 # Only a terminal shows their errors, which are in English.
 ENGLISH = ("server/cli/", "server/config_file.py", "server/pose_file/", "server/security/tls/selection.py")
@@ -33,9 +33,9 @@ class ErrorSite:
 
 @cache
 def error_sites() -> tuple[ErrorSite, ...]:
-    """Return all places in tracker and server at which an error or problem with a literal code is made.
+    """Return all places at which an error, problem or remark with a literal code is made.
 
-    Errors of the command line and of a start that fails are left out, and warnings of a calibration's report.
+    Errors of the command line and of a start that fails are left out.
     """
     paths = [path for folder in ("server", "tracker") for path in sorted((ROOT / folder).rglob("*.py"))]
     shown = [path for path in paths if not str(path.relative_to(ROOT)).startswith(ENGLISH)]
@@ -52,11 +52,11 @@ def _sites_in(path: Path) -> Iterator[ErrorSite]:
         if isinstance(target, ast.Name)
     }
     for node in ast.walk(tree):
-        if not isinstance(node, ast.Call) or ast.unparse(node.func) == "warn":
+        if not isinstance(node, ast.Call):
             continue
         if len(node.args) >= 3:
             given, message, remedy = node.args[:3]
-        elif ast.unparse(node.func) == "Problem":
+        elif ast.unparse(node.func) in {"Problem", "Remark"}:
             named = {one.arg: one.value for one in node.keywords}
             given, message, remedy = (named.get(part) for part in PROBLEM)
         else:

@@ -25,7 +25,7 @@ MOVED = (
     "and by 1.20 mm at most (allowed 1)"
 )
 # Phrases that the code composes of parts.
-JOINED = {"faults", "may", "misfit", "pixel_count"}
+JOINED = {"cut_ends", "faults", "may", "misfit", "pixel_count", "uncovered_corners"}
 
 
 def fields(template: str) -> list[tuple[str, str, str]]:
@@ -133,8 +133,8 @@ def test_values_of_a_phrase_are_read_from_its_text() -> None:
     why = error_reason("CAMERA_MODEL_INVALID", message, remedy, {"camera_problem": fault})
     assert why.message["en"] == message
     assert why.message["de"] == (
-        "das Kameramodell ist nicht verwendbar: seine Verzeichnung streckt das Bild 7.31-fach, erlaubt 5, "
-        "41.2° von seiner Achse, innerhalb des Bildes"
+        "das Kameramodell ist nicht verwendbar: seine Verzeichnung streckt das Bild 7,31-fach, erlaubt 5, "
+        "41,2° von seiner Achse, innerhalb des Bildes"
     )
 
 
@@ -160,7 +160,7 @@ def test_a_german_error_has_the_numbers_of_the_english_one() -> None:
     why = reason_of_error(RegistrationError("CAPTURE_MOVED", MOVED, remedy, values))
     assert why.is_translated
     assert (why.message["en"], why.remedy["en"]) == (MOVED, remedy)
-    assert why.message["de"].startswith("die Spitze bewegte sich: sie streut um 0.52 mm")
+    assert why.message["de"].startswith("die Spitze bewegte sich: sie streut um 0,52 mm")
     assert why.remedy["de"].startswith("Die Hand auflegen")
 
 

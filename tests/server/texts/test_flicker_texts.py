@@ -34,11 +34,11 @@ def test_the_note_has_mains_depth_exposure_and_remedy_in_both_languages() -> Non
     note = flicker_note(LampFlicker(mains_hz=(50,), depth_ratio=0.124), exposure_ms=7.0, rate_hz=30.0)
     assert note.message == {
         "en": "Lamps flicker by 12.4 % in the image (50 Hz mains), exposure 7.0 ms.",
-        "de": "Lampen flackern um 12.4 % im Bild (50 Hz), Belichtung 7.0 ms.",
+        "de": "Lampen flackern um 12,4 % im Bild (50 Hz), Belichtung 7,0 ms.",
     }
     assert note.remedy == {
         "en": "Set exposure to 10.0 or 20.0 ms (50 Hz).",
-        "de": "Belichtung fest auf 10.0 oder 20.0 ms (50 Hz) stellen.",
+        "de": "Belichtung fest auf 10,0 oder 20,0 ms (50 Hz) stellen.",
     }
 
 

@@ -36,7 +36,7 @@ def raised(fixed: npt.NDArray[np.float64], moving: npt.NDArray[np.float64]) -> N
         ),
         pytest.param(
             "POINTS_COINCIDENT",
-            "die Punkte 1 und 2 liegen auf dem CT 0.00 mm auseinander",
+            "die Punkte 1 und 2 liegen auf dem CT 0,00 mm auseinander",
             FIXED[[0, 0, 2, 3, 4]],
             FIXED,
             id="one landmark twice",
@@ -125,8 +125,8 @@ def test_a_capture_of_few_images_is_german_with_rate_reason_and_remedy() -> None
             captured(samples)
         errors.append(reason_of_error(raised_error.value))
     assert errors[0].message["de"] == (
-        "die Spitze war in 0 von 4 Bildern bei 0.5 Bildern/s (die Kamera liefert 20.0) bekannt "
+        "die Spitze war in 0 von 4 Bildern bei 0,5 Bildern/s (die Kamera liefert 20,0) bekannt "
         "und in 4 nicht (die Kamera ist nicht kalibriert), nötig in allen"
     )
-    assert "bei 0.5 Bildern/s (die Kamera liefert 20.0)" in errors[1].message["de"]
+    assert "bei 0,5 Bildern/s (die Kamera liefert 20,0)" in errors[1].message["de"]
     assert "Der Rechner überspringt Bilder" in errors[1].remedy["de"]

@@ -23,7 +23,7 @@ from tracker.navigation import (
 )
 from tracker.navigation.clearance import NearestWall, WallSource
 from tracker.navigation.directions import Wall
-from tracker.navigation.figures import rounded, rounded_down, rounded_up
+from tracker.navigation.figures import drill_figures, rounded, rounded_down, rounded_up
 from tracker.navigation.uncertainty import UncertainPose
 
 OVER = {Status.OVER, Status.THROUGH}
@@ -275,9 +275,6 @@ def _is_over(name: FigureName, figure: Figure) -> bool:
         return figure.value < figure.limit
     if name is FigureName.TO_GO:
         return figure.value < 0.0
-    if name is FigureName.DEPTH:
-        # One rule for both: 46.9 of 46.9 may be 0.04 mm past, and then nothing remains.
-        return figure.status is Status.THROUGH
     return not figure.value <= figure.limit
 
 
@@ -290,6 +287,26 @@ def test_rounding_has_its_direction_and_never_a_negative_zero(value: float, deci
     assert down <= near <= up or abs(near - value) < 2e-9
     assert abs(near - value) <= correction / 2 + 1e-9
     assert all(math.copysign(1.0, each) > 0.0 for each in (near, down, up) if each == 0.0)
+
+
+@pytest.mark.parametrize("length_mm", [47.0, 46.95, 47.04, 55.25])
+def test_depth_and_what_is_to_go_add_to_the_length_shown(length_mm: float) -> None:
+    channel = replace(
+        ROD_CHANNEL,
+        target_in_vertebra_mm=ROD_CHANNEL.entry_in_vertebra_mm + length_mm * ROD_CHANNEL.axis_in_vertebra,
+    )
+    for step in range(-200, 600):
+        depth_mm = 0.1037 * step
+        deviation = deviation_from_channel(drill_at(channel, depth_mm), channel)
+        figures = drill_figures(deviation, None, channel, LIMITS)
+        depth, to_go = figures[FigureName.DEPTH], figures[FigureName.TO_GO]
+        assert rounded(depth.value + to_go.value) == depth.limit == rounded(length_mm)
+        # Towards danger: what is to go is never shown too long, and the depth too short only by the rounding
+        # of the length.
+        assert to_go.value <= length_mm - depth_mm + 1e-6
+        assert depth.value >= depth_mm - max(length_mm - depth.limit, 0.0) - 1e-6
+        assert abs(depth.value - depth_mm) < 0.15
+        assert (depth.value > depth.limit) == (to_go.value < 0.0) == (to_go.status is Status.THROUGH)
 
 
 def _with_clearance(clearance_mm: float) -> Assessment:

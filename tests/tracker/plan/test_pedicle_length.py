@@ -62,7 +62,7 @@ def test_a_process_that_the_axis_runs_into_is_not_part_of_the_length() -> None:
     assert made.truth("left").length_mm > plain.truth("left").length_mm + 15.0
     one = measured(made)
     assert one.length_mm == pytest.approx(plain.truth("left").length_mm, abs=3.0)
-    assert any("process" in warning for warning in one.warnings)
+    assert any("process" in warning.message for warning in one.warnings)
 
 
 def test_a_vessel_that_touches_the_body_is_not_part_of_the_length() -> None:
@@ -72,7 +72,7 @@ def test_a_vessel_that_touches_the_body_is_not_part_of_the_length() -> None:
     )
     one = measured(made)
     assert one.length_mm == pytest.approx(made.truth("left").length_mm, abs=1.2)
-    assert any("touches the front wall" in warning for warning in one.warnings)
+    assert any("touches the front wall" in warning.message for warning in one.warnings)
 
 
 def measured_with(made: VertebraPhantom, hu_at: Callable[[Array], Array]) -> PedicleMeasure:

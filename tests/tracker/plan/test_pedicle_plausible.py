@@ -89,7 +89,7 @@ def test_an_upright_section_is_as_certain_as_its_walls() -> None:
 
 def test_a_late_canal_gives_a_warning_before_it_is_rejected() -> None:
     assert canal_remarks(6.9, 7.0) == []
-    assert "8 mm beyond the medial wall" in canal_remarks(8.0, 7.0)[0]
+    assert "8 mm beyond the medial wall" in canal_remarks(8.0, 7.0)[0].message
 
 
 def test_two_starts_agree_within_their_spreads_and_their_difference_widens_them() -> None:

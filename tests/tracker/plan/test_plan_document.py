@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.tracker.plan.test_screw import pedicle, shifted
-from tracker.errors import PlanError
+from tracker.errors import PlanError, Remark
 from tracker.plan import (
     Landmark,
     PedicleRecord,
@@ -23,9 +23,10 @@ from tracker.plan import (
     propose_middle,
     propose_slice,
 )
-from tracker.plan.document import FORMAT_VERSION, validate_plan
+from tracker.plan.document import FORMAT_VERSION, plain, validate_plan
 from tracker.plan.document.changes import channel_name, recomputed, with_landmarks
 from tracker.plan.document.validation import MAX_LANDMARKS
+from tracker.plan.pedicle.remarks import canal_remarks
 
 
 def volume() -> Volume:
@@ -141,6 +142,17 @@ def test_a_plan_of_the_first_version_is_read_as_one_without_landmarks() -> None:
     assert plan.vertebrae[0].landmarks == ()
     assert plan_to_mapping(plan)["format_version"] == FORMAT_VERSION
     assert [one.name for one in plan.vertebrae] == ["L3", "L4"]
+
+
+def test_warnings_of_a_pedicle_are_read_with_their_values_and_those_of_older_plans_as_sentences() -> None:
+    remark = canal_remarks(8.0, 7.0)[0]
+    place = ("vertebrae", 0, "pedicles", 0, "measured", "warnings")
+    (read,) = plan_from_mapping(changed(place, [plain(remark)])).vertebrae[0].pedicles[0].measured.warnings
+    assert read == remark
+    old = changed(place, ["its section is oblique"])
+    old["format_version"] = 2
+    (read,) = plan_from_mapping(old).vertebrae[0].pedicles[0].measured.warnings
+    assert read == Remark(code="PEDICLE_WARNING", message="its section is oblique")
 
 
 def test_landmarks_are_replaced_as_a_whole_and_leave_all_else_alone() -> None:

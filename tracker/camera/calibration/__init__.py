@@ -4,7 +4,6 @@ from tracker.camera.calibration.board_size import with_board_size_warning
 from tracker.camera.calibration.calibrate import CalibrationSettings, calibrate
 from tracker.camera.calibration.report import (
     CalibrationReport,
-    CalibrationWarning,
     Coverage,
     ModelChoice,
     ParameterEstimate,
@@ -14,7 +13,6 @@ from tracker.camera.calibration.report import (
 __all__ = [
     "CalibrationReport",
     "CalibrationSettings",
-    "CalibrationWarning",
     "Coverage",
     "ModelChoice",
     "ParameterEstimate",

@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from tracker.camera.boards import Board, CheckerBoard, DotBoard
-from tracker.camera.calibration.report import CalibrationReport, CalibrationWarning
+from tracker.camera.calibration.report import CalibrationReport
 from tracker.camera.detection.view import BoardView
+from tracker.errors import Remark
 
 MIN_EQUAL_VIEWS, MIN_EQUAL_VIEWS_RATIO = 3, 0.5
 
@@ -25,11 +26,19 @@ def with_board_size_warning(
         return report
     what = "inner corners" if isinstance(board, CheckerBoard) else "dots"
     hint = ", one fewer each way than squares" if isinstance(board, CheckerBoard) else ""
-    warning = CalibrationWarning(
+    warning = Remark(
         code="BOARD_SIZE_UNLIKELY",
         message=f"no view shows more than {likely[0]} x {likely[1]} of the {board.columns} x {board.rows} "
         f"{what}, and most show just these",
         remedy=f"Count {what} again{hint}: the board seems to have {likely[0]} x {likely[1]}.",
+        context={
+            "columns": likely[0],
+            "rows": likely[1],
+            "board_columns": board.columns,
+            "board_rows": board.rows,
+            "board_points": what,
+            "count_hint": hint,
+        },
     )
     return replace(report, warnings=(warning, *report.warnings))
 

@@ -13,7 +13,6 @@ from tracker.camera.calibration.one_camera import two_camera_warnings
 from tracker.camera.calibration.outliers import InlierViews, reject_outlier_points, reject_outlier_views
 from tracker.camera.calibration.report import (
     CalibrationReport,
-    CalibrationWarning,
     ModelChoice,
     ParameterEstimate,
     ViewReport,
@@ -24,7 +23,7 @@ from tracker.camera.calibration.view_checks import PARALLEL_DEG, fault_of, rejec
 from tracker.camera.detection.view import BoardView
 from tracker.camera.model import CameraModel
 from tracker.camera.plausibility import implausibility_of
-from tracker.errors import CalibrationError, InvalidInput
+from tracker.errors import CalibrationError, InvalidInput, Remark
 from tracker.geometry import Array, Camera, Pattern, Rigid
 
 MIN_VIEWS = 3
@@ -107,13 +106,16 @@ def calibrate(
     )
 
 
-def _implausible(camera: CameraModel) -> tuple[CalibrationWarning, ...]:
+def _implausible(camera: CameraModel) -> tuple[Remark, ...]:
     found = implausibility_of(camera.matrix, camera.distortion, camera.size_wh_px)
     if found is None:
         return ()
     return (
-        CalibrationWarning(
-            code="LENS_IMPLAUSIBLE", message=f"the lens is implausible: {found.message}", remedy=found.remedy
+        Remark(
+            code="LENS_IMPLAUSIBLE",
+            message=f"the lens is implausible: {found.message}",
+            remedy=found.remedy,
+            context={"camera_problem": found.message},
         ),
     )
 

@@ -6,12 +6,12 @@ import cv2
 import numpy as np
 
 from tracker.camera.calibration.report import (
-    CalibrationWarning,
     Coverage,
     ModelChoice,
     ParameterEstimate,
     ViewReport,
 )
+from tracker.errors import Remark
 from tracker.geometry import Array
 
 GRID = (8, 6)
@@ -21,6 +21,7 @@ ONE_DISTANCE_RATIO = 1.15
 MIN_CORNER_REACH_RATIO = 0.7
 MAX_FOCAL_SD_WARNING_RATIO, MAX_MIDDLE_SD_WARNING_RATIO = 0.01, 0.01
 MANY_OUT_RATIO = 0.25
+CORNERS = ("top left", "top right", "bottom right", "bottom left")
 MORE_VIEWS = "Take 10 to 20 views; a few views determine the lens poorly."
 
 
@@ -50,61 +51,87 @@ def warnings_of(
     coverage: Coverage,
     choice: ModelChoice,
     size_wh_px: tuple[int, int],
-) -> tuple[CalibrationWarning, ...]:
+) -> tuple[Remark, ...]:
     """Return warnings about what these views determine poorly."""
     used = [view for view in views if view.used]
-    reported: list[CalibrationWarning] = []
-
-    def warn(code: str, message: str, remedy: str) -> None:
-        reported.append(CalibrationWarning(code=code, message=message, remedy=remedy))
-
+    reported: list[Remark] = []
     if len(used) < FEW_VIEWS:
-        warn("FEW_VIEWS", f"{len(used)} views are used, advised are {FEW_VIEWS} and more", MORE_VIEWS)
+        reported.append(
+            Remark(
+                code="FEW_VIEWS",
+                message=f"{len(used)} views are used, advised are {FEW_VIEWS} and more",
+                remedy=MORE_VIEWS,
+                context={"used": len(used), "advised": FEW_VIEWS},
+            )
+        )
     out = len(views) - len(used)
     if out > MANY_OUT_RATIO * len(views):
-        warn(
-            "MANY_VIEWS_OUT",
-            f"{out} of {len(views)} views are not used",
-            "Read the reasons: columns and rows of the board, blur, a bent board.",
+        reported.append(
+            Remark(
+                code="MANY_VIEWS_OUT",
+                message=f"{out} of {len(views)} views are not used",
+                remedy="Read the reasons: columns and rows of the board, blur, a bent board.",
+                context={"out": out, "views": len(views)},
+            )
         )
     widest = widest_tilt_deg(used)
     if widest < LITTLE_TILT_DEG:
-        warn(
-            "LITTLE_TILT",
-            f"the board's directions differ by {widest:.1f} deg at most, advised are {LITTLE_TILT_DEG:g} deg",
-            "Add views with the board tilted by 20 to 45 deg: else focal length is mixed with distance.",
+        reported.append(
+            Remark(
+                code="LITTLE_TILT",
+                message=f"the board's directions differ by {widest:.1f} deg at most, advised are "
+                f"{LITTLE_TILT_DEG:g} deg",
+                remedy="Add views with the board tilted by 20 to 45 deg: else focal length is mixed with "
+                "distance.",
+                context={"tilt_deg": widest, "advised_deg": LITTLE_TILT_DEG},
+            )
         )
     distances = [view.distance_mm for view in used]
     if max(distances) < ONE_DISTANCE_RATIO * min(distances):
-        warn(
-            "ONE_DISTANCE",
-            f"the board is always {min(distances):.0f} to {max(distances):.0f} mm away",
-            "Add views from nearer and farther, over the distances at which you will work.",
+        reported.append(
+            Remark(
+                code="ONE_DISTANCE",
+                message=f"the board is always {min(distances):.0f} to {max(distances):.0f} mm away",
+                remedy="Add views from nearer and farther, over the distances at which you will work.",
+                context={"min_mm": min(distances), "max_mm": max(distances)},
+            )
         )
-    low = [
-        name
-        for name, reach in zip(
-            ("top left", "top right", "bottom right", "bottom left"),
-            coverage.corner_reach_ratios,
-            strict=True,
-        )
-        if reach < MIN_CORNER_REACH_RATIO
-    ]
-    if low:
-        minimum = 100 * min(coverage.corner_reach_ratios)
-        warn(
-            "CORNERS_UNCOVERED",
-            f"towards the image's {', '.join(low)} corner points reach {minimum:.0f} % of the way, "
-            f"advised are {100 * MIN_CORNER_REACH_RATIO:.0f} %",
-            "Add views with the board there: beyond its points the lens is extrapolated.",
-        )
-    reported.extend(_unsure(parameters, size_wh_px))
+    reported += _uncovered(coverage)
+    reported += _unsure(parameters, size_wh_px)
     if not choice.held_out_rms_px:
-        warn("MODEL_NOT_TRIED", f"lens model: {choice.reason}", MORE_VIEWS)
+        reported.append(
+            Remark(
+                code="MODEL_NOT_TRIED",
+                message=f"lens model: {choice.reason}",
+                remedy=MORE_VIEWS,
+                context={"model_reason": choice.reason},
+            )
+        )
     return tuple(reported)
 
 
-def _unsure(parameters: Sequence[ParameterEstimate], size_wh_px: tuple[int, int]) -> list[CalibrationWarning]:
+def _uncovered(coverage: Coverage) -> list[Remark]:
+    reaches = zip(CORNERS, coverage.corner_reach_ratios, strict=True)
+    low = ", ".join(name for name, reach in reaches if reach < MIN_CORNER_REACH_RATIO)
+    if not low:
+        return []
+    reach_percent, advised_percent = 100 * min(coverage.corner_reach_ratios), 100 * MIN_CORNER_REACH_RATIO
+    return [
+        Remark(
+            code="CORNERS_UNCOVERED",
+            message=f"towards the image's {low} corner points reach {reach_percent:.0f} % of the way, "
+            f"advised are {advised_percent:.0f} %",
+            remedy="Add views with the board there: beyond its points the lens is extrapolated.",
+            context={
+                "uncovered_corners": low,
+                "reach_percent": reach_percent,
+                "advised_percent": advised_percent,
+            },
+        )
+    ]
+
+
+def _unsure(parameters: Sequence[ParameterEstimate], size_wh_px: tuple[int, int]) -> list[Remark]:
     reported = []
     for one in parameters:
         limit = {
@@ -113,11 +140,17 @@ def _unsure(parameters: Sequence[ParameterEstimate], size_wh_px: tuple[int, int]
         }.get(one.name[0])
         if limit is not None and one.sd > limit:
             reported.append(
-                CalibrationWarning(
+                Remark(
                     code="FOCAL_LENGTH_UNCERTAIN" if one.name[0] == "f" else "PRINCIPAL_POINT_UNCERTAIN",
                     message=f"{one.name} is {one.value:.1f} px with a standard deviation of {one.sd:.1f} px, "
                     f"advised is {limit:.1f} px",
                     remedy="Add views with the board tilted in other directions and filling the image.",
+                    context={
+                        "parameter": one.name,
+                        "value": one.value,
+                        "sd_px": one.sd,
+                        "advised_px": limit,
+                    },
                 )
             )
     return reported

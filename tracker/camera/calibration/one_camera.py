@@ -13,7 +13,8 @@ import numpy.typing as npt
 
 from tracker.camera.calibration.blocks import Block, total_information
 from tracker.camera.calibration.fit import Fit
-from tracker.camera.calibration.report import CalibrationWarning, rms
+from tracker.camera.calibration.report import rms
+from tracker.errors import Remark
 from tracker.geometry import Array
 
 # Focal lengths and principal point differ between the groups; the distortion is common, to avoid overfitting.
@@ -86,9 +87,7 @@ def two_groups(blocks: Sequence[Block]) -> TwoGroups | None:
     )
 
 
-def two_camera_warnings(
-    fit: Fit, blocks: Sequence[Block], names: Sequence[str]
-) -> tuple[CalibrationWarning, ...]:
+def two_camera_warnings(fit: Fit, blocks: Sequence[Block], names: Sequence[str]) -> tuple[Remark, ...]:
     """Return a warning if two cameras fit the views (of these names) clearly better than one."""
     groups = two_groups(blocks)
     if groups is None:
@@ -98,13 +97,23 @@ def two_camera_warnings(
     rms_px = rms(np.concatenate(fit.residuals_px))
     by = groups.difference_px
     return (
-        CalibrationWarning(
+        Remark(
             code="TWO_CAMERAS",
             message=f"{len(apart)} of {len(blocks)} views ({shown}) fit a separate camera clearly better: "
             f"RMS {rms_px * groups.left_ratio:.3f} px instead of {rms_px:.3f} px, with focal "
             f"lengths that differ by {by[0]:+.1f} and {by[1]:+.1f} px and a middle by {by[2]:+.1f} and "
             f"{by[3]:+.1f} px",
             remedy="Give images of one camera at one zoom and focus, and of a board that is flat and stiff.",
+            context={
+                "apart": len(apart),
+                "views": len(blocks),
+                "view_names": shown,
+                "named_views": ", ".join(apart[:NAMED]),
+                "further_views": len(apart[NAMED:]),
+                "split_rms_px": rms_px * groups.left_ratio,
+                "rms_px": rms_px,
+                "difference_px": [float(one) for one in by[:4]],
+            },
         ),
     )
 

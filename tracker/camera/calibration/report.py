@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.camera.model import CameraModel
+from tracker.errors import Remark
 from tracker.geometry import Array, Camera, Pattern, Rigid
 
 
@@ -91,15 +92,6 @@ class ModelChoice:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CalibrationWarning:
-    """A warning about what these views determine poorly, with a remedy."""
-
-    code: str
-    message: str
-    remedy: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class CalibrationReport:
     """A calibrated camera with its report.
 
@@ -126,7 +118,7 @@ class CalibrationReport:
     views: tuple[ViewReport, ...]
     coverage: Coverage
     choice: ModelChoice
-    warnings: tuple[CalibrationWarning, ...]
+    warnings: tuple[Remark, ...]
 
     def parameter(self, name: str) -> ParameterEstimate:
         """Return the estimate of this name."""

@@ -2,14 +2,13 @@
 
 from dataclasses import dataclass
 
-from tracker.errors import PlanError
+from tracker.errors import PlanError, Remark
 from tracker.geometry import Rigid, Tool, Vertebra, rotation_between
 from tracker.navigation.clearance.distance_field import WallDistanceField, bone_distance_field
 from tracker.navigation.clearance.drill import NearestWall, clearance_of_drill, drill_rings
 from tracker.navigation.clearance.outline_field import channel_distance_field, outline_distance_field
 from tracker.plan.channel import Channel
 from tracker.plan.pedicle import PedicleMeasure
-from tracker.plan.remark import Remark
 from tracker.plan.surface import Surface
 
 

@@ -9,12 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from tracker.errors import NavigationError, PlanError
+from tracker.errors import NavigationError, PlanError, Remark
 from tracker.plan.channel import Channel
 from tracker.plan.document.records import FORMAT_VERSION, READABLE_VERSIONS, PlanDocument
 from tracker.plan.pedicle import PedicleMeasure
 
 MAX_INTEGER = 1e300
+# Code of a warning of an older plan, which has its sentence alone.
+SENTENCE = "PEDICLE_WARNING"
 
 
 def plan_to_mapping(plan: PlanDocument) -> dict[str, Any]:
@@ -91,8 +93,12 @@ def channel_from_mapping(mapped: object) -> Channel:
 
 def _read(kind: Any, value: object, where: str) -> Any:  # noqa: ANN401  the annotation decides the type
     origin, given = typing.get_origin(kind), typing.get_args(kind)
+    if kind is Remark and isinstance(value, str):
+        return Remark(code=SENTENCE, message=value)
     if dataclasses.is_dataclass(kind) and isinstance(kind, type):
         return _record(kind, value, where)
+    if kind is object:
+        return value
     if origin is np.ndarray:
         return _array(value, where)
     if origin is tuple:

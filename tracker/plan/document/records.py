@@ -10,8 +10,8 @@ from tracker.plan.pedicle import Side
 from tracker.plan.reference_slice import ReferenceSlice
 from tracker.plan.screw import ScrewPlan
 
-# Version 2 added landmarks; version 1 is read without any.
-FORMAT_VERSION, READABLE_VERSIONS = 2, (1, 2)
+# Version 2 added landmarks; version 1 is read without any. Up to version 2 a warning was a sentence.
+FORMAT_VERSION, READABLE_VERSIONS = 3, (1, 2, 3)
 MAX_LISTED_LENGTH = 400
 
 

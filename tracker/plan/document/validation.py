@@ -84,7 +84,9 @@ def _in_measure(measure: PedicleMeasure, where: str) -> Iterator[tuple[str, str]
         room = 0.5 * (high - low)
         if not (low - room <= value <= high + room) or (name.endswith("_mm") and value <= 0.0):
             yield where, f"{name} is {value:g}, allowed {low:g} to {high:g}"
-    if len(measure.warnings) > MAX_WARNINGS or any(len(one) > MAX_WARNING_LENGTH for one in measure.warnings):
+    if len(measure.warnings) > MAX_WARNINGS or any(
+        len(one.code + one.message + one.remedy) > MAX_WARNING_LENGTH for one in measure.warnings
+    ):
         yield (
             where,
             f"has more than {MAX_WARNINGS} warnings, or one of more than {MAX_WARNING_LENGTH} letters",

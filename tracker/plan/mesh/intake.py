@@ -6,11 +6,10 @@ from enum import StrEnum
 import numpy as np
 import numpy.typing as npt
 
-from tracker.errors import PlanError
+from tracker.errors import PlanError, Remark
 from tracker.geometry import Array
 from tracker.plan.mesh.remarks import Findings, remarks_of
 from tracker.plan.mesh.units import MM_FROM_UNIT, FittingUnit, Kind, fitting_units, kind_of
-from tracker.plan.remark import Remark
 from tracker.plan.surface import Surface
 from tracker.plan.triangles import connectivity_of, referenced, wound_outwards
 from tracker.plan.triangles.connectivity import Faces, areas_of, equal_rows, parts_of

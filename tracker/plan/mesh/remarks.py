@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from tracker.errors import Remark
 from tracker.geometry import Array
 from tracker.plan.mesh.units import Kind
-from tracker.plan.remark import Remark
 from tracker.plan.triangles import Connectivity
 
 SEGMENT_AGAIN = "Fill its holes in the segmentation, or use it for display only."
@@ -38,7 +38,7 @@ def _remarks(found: Findings) -> Iterator[Remark]:
             code="MESH_SEVERAL_VERTEBRAE",
             message=f"the mesh is {size} mm, the size of several vertebrae or a whole spine",
             remedy="Register with the surface of one vertebra, as vertebrae are not rigidly connected.",
-            context={"size_mm": found.size_mm.tolist()},
+            context={"size_mm": found.size_mm.tolist(), "size": size},
         )
     if connectivity.border_edges:
         yield Remark(
@@ -73,7 +73,6 @@ def _remarks(found: Findings) -> Iterator[Remark]:
         yield Remark(
             code="MESH_CLEANED",
             message=f"{found.dropped} degenerate or duplicate triangles of the mesh were removed",
-            remedy="Nothing needs to be done.",
             context={"dropped_faces": found.dropped},
         )
     if found.mirrored:

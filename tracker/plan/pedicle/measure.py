@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from tracker.errors import Remark
 from tracker.geometry import Array
 from tracker.plan.pedicle import rejections, tube_model
 from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
@@ -215,7 +216,7 @@ def _record(
     bar: Bar,
     fitted: FittedBar,
     isthmus: Isthmus,
-    warnings: list[str],
+    warnings: list[Remark],
 ) -> PedicleMeasure:
     front = front_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     back = back_wall(near, solid, isthmus.centre_mm, isthmus.axis)
@@ -256,7 +257,7 @@ def _opens_ahead_mm(bar: Bar, isthmus: Isthmus) -> float:
     return max(ahead, MIN_AHEAD_MM)
 
 
-def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, side: Side) -> list[str]:
+def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, side: Side) -> list[Remark]:
     """Return warnings if canal or body contradicts the given side; reject the side if both do."""
     expected = -1 if side == "left" else 1
     canal = canal_side(near, isthmus.centre_mm, fitted.left, 0.5 * isthmus.width_mm, fitted.up)
@@ -264,8 +265,14 @@ def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, sid
     if canal == body == -expected:
         raise rejections.other_side(side)
     if canal == -expected or (body == -expected and canal == 0):
+        part = "canal" if canal else "body"
         return [
-            f"the {'canal' if canal else 'body'} lies as if this were not the {side} side; check the side"
+            Remark(
+                code="PEDICLE_SIDE_UNSURE",
+                message=f"the {part} lies as if this were not the {side} side",
+                remedy="Check the side.",
+                context={"vertebra_part": part, "side_name": side},
+            )
         ]
     return []
 

@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from tracker.errors import InvalidInput
+from tracker.errors import InvalidInput, Remark
 from tracker.geometry import Array
 
 Side = Literal["left", "right"]
@@ -53,7 +53,7 @@ class PedicleMeasure:
         cortex_mm: mean thickness of the wall; valid only for fine voxels.
         sd: standard deviations.
         opens_ahead_mm: how far in front of the isthmus the pedicle opens into the body.
-        warnings: messages about these values.
+        warnings: about these values.
     """
 
     side: Side
@@ -71,7 +71,7 @@ class PedicleMeasure:
     cortex_mm: float
     sd: PedicleSpread
     opens_ahead_mm: float = MIN_AHEAD_MM
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Remark, ...] = ()
 
     def __post_init__(self) -> None:
         for name in _ARRAYS:

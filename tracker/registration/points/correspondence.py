@@ -13,9 +13,8 @@ import numpy as np
 import numpy.typing as npt
 import scipy
 
-from tracker.errors import RegistrationError
+from tracker.errors import RegistrationError, Remark
 from tracker.geometry import Array
-from tracker.plan.remark import Remark
 from tracker.registration.points.pairs import PointPairs
 from tracker.registration.points.settings import PointSettings
 

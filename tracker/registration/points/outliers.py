@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from tracker.errors import Remark
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, vector_from_rotation
-from tracker.plan.remark import Remark
 from tracker.registration.points.fit import fit_rigid_weighted, jacobians, weights_on_ct
 from tracker.registration.points.uncertainty import normal_matrix
 
@@ -125,7 +125,11 @@ def outlier_remarks(
             f"includes one landmark with an error of {gross_error_mm:g} mm (3-D RMS)",
             remedy="Add a landmark far from the others, and check on one that was not used.",
             context={
-                "landmarks": names,
+                "count": count,
+                "named": names,
+                "doubtful_landmarks": which,
+                "doubtful_names": ", ".join(names),
+                "error_extent": extent,
                 "undetected_mm": None if np.isinf(worst) else worst,
                 "gross_error_mm": gross_error_mm,
             },

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy
 
-from tracker.errors import RegistrationError
+from tracker.errors import RegistrationError, Remark
 from tracker.geometry import (
     Anchor,
     Array,
@@ -17,7 +17,6 @@ from tracker.geometry import (
     inverse_jacobian,
     point_covariance_mm2,
 )
-from tracker.plan.remark import Remark
 from tracker.registration.points.correspondence import reject_swapped_or_mirrored
 from tracker.registration.points.fit import (
     covariance_about_origin,
@@ -430,12 +429,13 @@ def _scale_remarks(used: PointPairs, fle_mm: float) -> tuple[Remark, ...]:
     if abs(ratio - 1.0) <= max(MIN_SCALE_DIFFERENCE, MIN_SCALE_SDS * noise / spread):
         return ()
     larger = "larger" if ratio < 1.0 else "smaller"
+    difference = abs(1.0 / ratio - 1.0)
     return (
         Remark(
             code="POINTS_SCALE_DIFFERS",
-            message=f"as touched the points are {abs(1.0 / ratio - 1.0):.1%} {larger} than on the CT",
+            message=f"as touched the points are {difference:.1%} {larger} than on the CT",
             remedy="Measure the printed marker's side again and check the camera with 'coaxial accuracy'.",
-            context={"scale_ratio": ratio},
+            context={"scale_ratio": ratio, "difference_ratio": difference, "size_comparison": larger},
         ),
     )
 

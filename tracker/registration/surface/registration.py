@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from tracker.errors import RegistrationError
+from tracker.errors import RegistrationError, Remark
 from tracker.geometry import (
     Anchor,
     Array,
@@ -16,7 +16,6 @@ from tracker.geometry import (
     point_covariance_mm2,
     vector_from_rotation,
 )
-from tracker.plan.remark import Remark
 from tracker.registration.points import PointPairs
 from tracker.registration.points.fit import covariance_about_origin, weights_on_ct
 from tracker.registration.points.uncertainty import small_sample_factor

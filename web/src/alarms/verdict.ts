@@ -1,5 +1,5 @@
 // Which alarm state the page shows. Pure.
-import { SILENT_AFTER_MS } from "../live/assess";
+import { isServerHeard } from "../live/assess";
 import type { LinkState } from "../live/viewConnection";
 import type { AlarmsMessage, LiveMessage, Sound } from "../live/messages";
 
@@ -12,13 +12,9 @@ interface ServerContact {
 /** Without the server neither alarms nor their absence are claimed. */
 export type AlarmsVerdict = { known: true; alarms: AlarmsMessage } | { known: false; everReceived: boolean };
 
-export function alarmsVerdict(
-  { link, silentMs, newest }: ServerContact,
-  everReceived: boolean,
-): AlarmsVerdict {
-  const isConnected = link === "open" && silentMs <= SILENT_AFTER_MS;
-  return isConnected && newest !== null
-    ? { known: true, alarms: newest.alarms }
+export function alarmsVerdict(contact: ServerContact, everReceived: boolean): AlarmsVerdict {
+  return contact.newest !== null && isServerHeard(contact)
+    ? { known: true, alarms: contact.newest.alarms }
     : { known: false, everReceived };
 }
 

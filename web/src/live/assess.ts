@@ -86,6 +86,19 @@ export type NumbersVerdict =
 /** An open connection silent for this long means that the server is lost. */
 export const SILENT_AFTER_MS = 800;
 
+/** Whether the server is heard now. Header and alarms state the same: one that is not heard knows no alarms. */
+export function isServerHeard({
+  link,
+  silentMs,
+  newest,
+}: {
+  link: LinkState;
+  silentMs: number;
+  newest: LiveMessage | null;
+}): boolean {
+  return link === "open" && newest !== null && silentMs <= SILENT_AFTER_MS;
+}
+
 /** On a loaded machine a new canvas, as after a change of step, has its first picture within this time. */
 export const FIRST_PICTURE_WITHIN_MS = 2000;
 

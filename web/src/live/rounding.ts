@@ -1,12 +1,30 @@
-// Number formatting, identical to the server's in the video (`server/number_format.py`).
+// Numbers as the page's language writes them, with the digits of the server (`server/number_format.py`).
+import { pageLanguage } from "../texts/pageLanguage";
 
 export const NOT_KNOWN = "--";
+
+/** Between the whole and the decimals: a point, in German a comma. */
+export const decimalSign = (): "." | "," => (pageLanguage() === "de" ? "," : ".");
 
 /** Fixed decimals, half away from zero, no negative zero, "--" for NaN. */
 export function formatNumber(value: number | null, decimals = 1): string {
   if (value === null || !Number.isFinite(value)) return NOT_KNOWN;
   const text = value.toFixed(decimals);
-  return Number(text) === 0 ? (0).toFixed(decimals) : text;
+  return withDecimalSign(Number(text) === 0 ? (0).toFixed(decimals) : text);
+}
+
+/** All decimals that the number has: sizes of a catalogue, steps. */
+export function formatExact(value: number): string {
+  return withDecimalSign(String(value));
+}
+
+/** A count, with its thousands apart by a narrow space, which no language reads as a decimal sign. */
+export function formatCount(value: number): string {
+  return value.toFixed(0).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+}
+
+function withDecimalSign(digits: string): string {
+  return digits.replace(".", decimalSign());
 }
 
 /** With a true minus sign, which is as wide as a digit and legible from 3 m. */

@@ -1,5 +1,7 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
+import { formatDuration } from "../live/rounding";
+import { interpolate } from "../texts/interpolate";
 import { useTexts } from "../texts/TextsContext";
 import { Fact } from "./Fact";
 import { serverStateOf } from "./serverState";
@@ -30,7 +32,7 @@ export function LiveStatus({ withTracking = false }: { withTracking?: boolean })
       />
       <Fact
         name={texts.header.server}
-        value={texts.linkState[linkState]}
+        value={interpolate(texts.linkState[linkState], { age: formatDuration(view.silentMs) })}
         mood={linkState === "open" ? "good" : linkState === "connecting" ? "waiting" : "bad"}
         testid="link-state"
       />

@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import { alarmsVerdict } from "../alarms/verdict";
 import { message } from "../live/builders";
 import { Live } from "../live/live";
 import { REACHED_WITHIN_MS } from "../live/firstMessage";
@@ -43,11 +44,34 @@ test("after the first message, nothing of a lost or silent server is shown", asy
   });
   clock.nowMs = 801;
   expect(serverStateOf(live.update())).toEqual({
-    linkState: "lost",
+    linkState: "late",
     source: null,
     snapshot: null,
     isOfNow: false,
   });
   live.setLink("lost");
   expect(serverStateOf(live.update()).linkState).toBe("lost");
+});
+
+test("the header says connected exactly while the alarms are known", async () => {
+  const { live, clock } = page();
+  const agree = (): [string, boolean] => {
+    const view = live.update();
+    const { linkState } = serverStateOf(view);
+    const { known } = alarmsVerdict(view, true);
+    expect(linkState === "open").toBe(known);
+    return [linkState, known];
+  };
+  agree();
+  live.setLink("open");
+  agree();
+  await live.receive({ message: message(), jpeg: new Uint8Array() });
+  for (clock.nowMs = 0; clock.nowMs <= 3000; clock.nowMs += 100) agree();
+  expect(agree(), "silent under load").toEqual(["late", false]);
+  live.setLink("lost");
+  expect(agree()).toEqual(["lost", false]);
+  live.setLink("open");
+  expect(agree()[0], "back, and without a message so far").not.toBe("open");
+  await live.receive({ message: message({ sequence: 2 }), jpeg: new Uint8Array() });
+  expect(agree()).toEqual(["open", true]);
 });

@@ -25,6 +25,6 @@ export function splitOf({ deviation }: Reading, part: SplitPart, texts: Texts): 
 function signed(value: number | null, unit: string, positive: string, negative: string): string {
   if (value === null) return "";
   const size = formatNumber(Math.abs(value));
-  if (Number(size) === 0) return `${size}${unit}`;
+  if (Number(value.toFixed(1)) === 0) return `${size}${unit}`;
   return `${size}${unit} ${value > 0 ? positive : negative}`;
 }

@@ -86,7 +86,7 @@ export interface Texts {
   >;
   cameraState: Record<"opening" | "running" | "reconnecting" | "ended" | "unknown", string>;
   imageClock: Record<ImageClock, string>;
-  linkState: Record<"connecting" | "open" | "lost" | "not-reached", string>;
+  linkState: Record<"connecting" | "open" | "late" | "lost" | "not-reached", string>;
   details: Record<
     | "title"
     | "stages"

@@ -139,6 +139,7 @@ export const de: Texts = {
   linkState: {
     connecting: "verbindet",
     open: "verbunden",
+    late: "seit {age} keine Nachricht",
     lost: "getrennt, verbindet neu",
     "not-reached": "nicht erreicht",
   },

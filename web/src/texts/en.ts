@@ -141,6 +141,7 @@ export const en: Texts = {
   linkState: {
     connecting: "connecting",
     open: "connected",
+    late: "no message for {age}",
     lost: "lost, reconnecting",
     "not-reached": "not reached",
   },

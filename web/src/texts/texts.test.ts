@@ -37,3 +37,7 @@ test.each([
 ])("%s with %j speaks %s", (query, languages, spoken) => {
   expect(textsFor(query, languages).language).toBe(spoken);
 });
+
+test("no German text has a decimal point", () => {
+  expect(leaves(de).filter(([, text]) => /\d\.\d/.test(text))).toEqual([]);
+});

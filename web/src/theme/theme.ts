@@ -1,4 +1,5 @@
 import { createTheme, Loader } from "@mantine/core";
+import { decimalSign } from "../live/rounding";
 
 /** System fonts only: nothing is fetched from outside. */
 export const theme = createTheme({
@@ -13,6 +14,10 @@ export const theme = createTheme({
   defaultRadius: "md",
   respectReducedMotion: true,
   components: {
+    // A point and a comma are accepted in either language.
+    NumberInput: {
+      defaultProps: () => ({ decimalSeparator: decimalSign(), allowedDecimalSeparators: [".", ","] }),
+    },
     // The spinner needs a role, because a bare span may not have a label.
     Loader: Loader.extend({ defaultProps: { role: "img" } }),
   },

@@ -15,6 +15,7 @@ from server.texts.errors.phrases.labels import LABELS
 from server.texts.errors.phrases.process import PROCESS
 from server.texts.errors.phrases.recordings import RECORDINGS
 from server.texts.errors.phrases.registration import REGISTRATION
+from server.texts.errors.phrases.remarks import REMARKS
 from server.texts.errors.phrases.tool import TOOL
 from server.texts.language import Text
 
@@ -27,5 +28,6 @@ PHRASES: Mapping[str, tuple[Text, ...]] = {
     **PROCESS,
     **RECORDINGS,
     **REGISTRATION,
+    **REMARKS,
     **TOOL,
 }

@@ -9,12 +9,14 @@ from server.texts.errors.remedies.procedure import PROCEDURE
 from server.texts.errors.remedies.process import PROCESS
 from server.texts.errors.remedies.recordings import RECORDINGS
 from server.texts.errors.remedies.registration import REGISTRATION
+from server.texts.errors.remedies.remarks import REMARKS
 from server.texts.errors.remedies.tool import TOOL
 from server.texts.language import Text
 
 REMEDIES: tuple[Text, ...] = (
     *PROCEDURE,
     *REGISTRATION,
+    *REMARKS,
     *TOOL,
     *CAMERA,
     *PROCESS,

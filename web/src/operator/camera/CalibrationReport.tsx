@@ -6,7 +6,8 @@ import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
-import { sentence, formatTime } from "../parts/format";
+import { Remarks } from "../parts/Remarks";
+import { formatTime, sentence } from "../parts/format";
 import { interpolate } from "../../texts/interpolate";
 import { DocumentValidity } from "../parts/DocumentValidity";
 import { Plot } from "./Plot";
@@ -49,11 +50,7 @@ export function CalibrationReport({ caseId, calibration, gate, fresh }: Calibrat
           decimals={0}
         />
       </dl>
-      {report.warnings.map((one) => (
-        <p key={one.code + one.message} className="bad">
-          ▲ {sentence(one.message)} {one.remedy}
-        </p>
-      ))}
+      <Remarks remarks={report.warnings} />
       <details className="more">
         <summary>{texts.parameters}</summary>
         <Table.ScrollContainer minWidth={420}>

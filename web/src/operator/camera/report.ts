@@ -1,4 +1,6 @@
 // Parses a calibration document; its content is not trusted.
+import type { Remark } from "../parts/Remarks";
+
 interface Parameter {
   name: string;
   value: number;
@@ -14,12 +16,6 @@ export interface View {
   reason: string;
 }
 
-interface Warning {
-  code: string;
-  message: string;
-  remedy: string;
-}
-
 interface Report {
   rmsPx: number | null;
   noisePx: number | null;
@@ -28,7 +24,7 @@ interface Report {
   model: string;
   parameters: readonly Parameter[];
   views: readonly View[];
-  warnings: readonly Warning[];
+  warnings: readonly Remark[];
   /** File ids by the name of the plot. */
   plots: readonly (readonly [string, string])[];
 }

@@ -1,5 +1,6 @@
 import { Button, NumberInput } from "@mantine/core";
 import type { ReactNode } from "react";
+import { formatExact } from "../../live/rounding";
 
 interface StepFieldProps {
   label: string;
@@ -18,7 +19,7 @@ export function StepField({ label, value, min, max, step, onValue, testId }: Ste
   };
   return (
     <div className="step-field">
-      <Button size="lg" variant="default" aria-label={`${label} − ${step}`} onClick={by(-1)}>
+      <Button size="lg" variant="default" aria-label={`${label} − ${formatExact(step)}`} onClick={by(-1)}>
         −
       </Button>
       <NumberInput
@@ -35,7 +36,7 @@ export function StepField({ label, value, min, max, step, onValue, testId }: Ste
           if (typeof given === "number" && given >= min && given <= max) onValue(given);
         }}
       />
-      <Button size="lg" variant="default" aria-label={`${label} + ${step}`} onClick={by(1)}>
+      <Button size="lg" variant="default" aria-label={`${label} + ${formatExact(step)}`} onClick={by(1)}>
         +
       </Button>
     </div>

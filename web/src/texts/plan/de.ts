@@ -118,6 +118,8 @@ export const planDe: PlanTexts = {
     diameter: "Durchmesser",
     length: "Länge",
     remove: "Keine Schraube",
+    range: "Produktlinie",
+    noRange: "keine mit dieser Größe",
     grade: "Gertzbein-Robbins",
     within: "erwartet, innerhalb des Pedikels",
     breaks: "erwartet, durchbricht die Wand um",

@@ -115,6 +115,8 @@ export const planEn = {
     diameter: "Diameter",
     length: "Length",
     remove: "No screw",
+    range: "Product line",
+    noRange: "none with this size",
     grade: "Gertzbein-Robbins",
     within: "expected, within the pedicle",
     breaks: "expected, breaches the wall by",

@@ -6,7 +6,7 @@ export const slicesDe: SlicesTexts = {
     noneTitle: "Dieser Fall hat noch kein CT",
     hint: "Senden Sie ein ZIP mit DICOM-Schichten, eine NIfTI-Datei oder einen Ordner mit allen Schichten einer Serie. Nichts verlässt diesen Server.",
     buttons: { file: "Datei wählen …", folder: "Ordner wählen …" },
-    tooMuch: "Das sind mehr als 4 GB oder 65.000 Dateien. Wählen Sie den Ordner einer einzigen Serie.",
+    tooMuch: "Das sind mehr als 4 GB oder 65 000 Dateien. Wählen Sie den Ordner einer einzigen Serie.",
     phase: { packing: "Schichten werden gepackt", sending: "Wird gesendet", fetching: "Wird geladen" },
     previewAlt: "Erste Schicht des CT, das gerade gelesen wird",
     rehearsal: {
@@ -31,7 +31,6 @@ export const slicesDe: SlicesTexts = {
     voxels: "Voxel",
     spacing: "Abstand",
     madeBy: "Gesendet von",
-    leftOut: "ausgelassen",
     other: "Anderes CT senden …",
   },
   slices: {

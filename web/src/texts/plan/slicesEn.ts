@@ -30,7 +30,6 @@ export const slicesEn = {
     voxels: "Voxels",
     spacing: "Spacing",
     madeBy: "Sent by",
-    leftOut: "left out",
     other: "Send another CT …",
   },
   slices: {

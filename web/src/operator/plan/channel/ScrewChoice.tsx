@@ -5,12 +5,13 @@ import {
   getPlanCatalogue,
   putPlanVertebraeByNameChannelsBySideScrew,
 } from "../../../api";
+import { formatExact } from "../../../live/rounding";
 import { useQuery } from "../../../rest/useQuery";
 import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 import type { PlannedChannel } from "../state/shape";
 import { Stepper } from "../Stepper";
-import { neighbourOf } from "./catalogue";
+import { neighbourOf, rangesWith } from "./catalogue";
 import { ClearanceNote } from "./ClearanceNote";
 import { ScrewNumbers } from "./ScrewNumbers";
 
@@ -27,6 +28,7 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
   const catalogue = useQuery((signal) => getPlanCatalogue({ signal })).data;
   const diameters = catalogue?.diameters_mm ?? [];
   const lengths = catalogue?.lengths_mm ?? [];
+  const ranges = catalogue?.ranges ?? [];
   const path = { name: vertebra, side: planned.side };
   const screw = planned.screws[0] ?? null;
   const choose = (size: { diameter_mm: number; length_mm: number } | null): void => {
@@ -58,7 +60,7 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
           <Stepper
             name="diameter"
             label={texts.diameter}
-            value={`${screw.diameter_mm} mm`}
+            value={`${formatExact(screw.diameter_mm)} mm`}
             disabled={busy || catalogue === null}
             hasLess={neighbourOf(diameters, screw.diameter_mm, -1) !== null}
             hasMore={neighbourOf(diameters, screw.diameter_mm, 1) !== null}
@@ -70,7 +72,7 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
           <Stepper
             name="length"
             label={texts.length}
-            value={`${screw.length_mm} mm`}
+            value={`${formatExact(screw.length_mm)} mm`}
             disabled={busy || catalogue === null}
             hasLess={neighbourOf(lengths, screw.length_mm, -1) !== null}
             hasMore={neighbourOf(lengths, screw.length_mm, 1) !== null}
@@ -79,6 +81,11 @@ export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps)
               if (length_mm !== null) choose({ diameter_mm: screw.diameter_mm, length_mm });
             }}
           />
+          {ranges.length > 0 && (
+            <p className="soft" data-testid="screw-ranges">
+              {texts.range}: {rangesWith(ranges, screw).join(", ") || texts.noRange}
+            </p>
+          )}
           <ScrewNumbers screw={screw} />
           <ClearanceNote vertebra={vertebra} side={planned.side} />
           <div className="buttons">

@@ -1,8 +1,9 @@
 import { useState, type ReactNode } from "react";
-import { Alert, Button } from "@mantine/core";
+import { Button } from "@mantine/core";
 import { formatNumber } from "../../../live/rounding";
 import { useTexts } from "../../../texts/TextsContext";
 import { Maker } from "../../parts/Maker";
+import { Remarks } from "../../parts/Remarks";
 import { formatTime } from "../../parts/format";
 import { LabelIntake } from "../labels/LabelIntake";
 import { useSlices } from "../slices/SlicesContext";
@@ -32,14 +33,7 @@ export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
           <Maker of={ct.heading} />, {formatTime(ct.heading.made_at, all.language)}
         </dd>
       </dl>
-      {ct.warnings.map((warning) => (
-        <Alert key={warning} className="consequence" title={warning} />
-      ))}
-      {ct.left_out.map((one) => (
-        <p key={String(one["reason"])} className="warning">
-          {String(one["count"])} {texts.leftOut}: {String(one["reason"])}
-        </p>
-      ))}
+      <Remarks remarks={ct.warnings} />
       {isReplacing ? (
         <CtIntake isSecond onTaken={onTaken} />
       ) : (

@@ -1,5 +1,6 @@
 import { useDrag } from "@use-gesture/react";
 import { useRef, type KeyboardEvent, type ReactNode } from "react";
+import { formatNumber } from "../../../live/rounding";
 import type { Projection } from "../slices/projection";
 import { plus, minus, type Vec3 } from "../slices/vectors";
 import { knobAt } from "./knobs";
@@ -67,7 +68,7 @@ export function Handle({ projection, point, towards, label, name, sign, onMove }
       data-testid={`handle-${name}`}
       role="slider"
       aria-label={label}
-      aria-valuetext={point.map((one) => one.toFixed(1)).join(", ")}
+      aria-valuetext={point.map((one) => formatNumber(one)).join(", ")}
       aria-valuenow={0}
       tabIndex={0}
       onKeyDown={onKeyDown}

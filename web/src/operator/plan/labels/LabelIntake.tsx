@@ -1,9 +1,10 @@
-import { Alert, Switch } from "@mantine/core";
+import { Switch } from "@mantine/core";
 import { useRef, type ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
 import { JobProgress } from "../../../rest/JobProgress";
 import { isOver, useJob } from "../../../rest/useJob";
 import { useTexts } from "../../../texts/TextsContext";
+import { Remarks } from "../../parts/Remarks";
 import { FileButtons } from "../ct/FileButtons";
 import { UploadProgress } from "../ct/UploadProgress";
 import { useUpload } from "../ct/useUpload";
@@ -42,9 +43,7 @@ export function LabelIntake(): ReactNode {
               </div>
             ))}
           </dl>
-          {labels.warnings.map((warning) => (
-            <Alert key={warning} className="consequence" title={warning} />
-          ))}
+          <Remarks remarks={labels.warnings} />
           <Switch
             size="lg"
             label={texts.show}

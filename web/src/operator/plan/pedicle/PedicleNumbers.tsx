@@ -1,8 +1,9 @@
-import { Alert, Button } from "@mantine/core";
+import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
 import { putPlanVertebraeByNamePediclesBySideCorrections } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
+import { Remarks } from "../../parts/Remarks";
 import { useSlices } from "../slices/SlicesContext";
 import { usePlanning } from "../state/PlanContext";
 import { NUMBERS, type NumberName, type Numbers, type PedicleRecord } from "../state/shape";
@@ -59,9 +60,7 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
           />
         ))
       )}
-      {measured.warnings.map((warning) => (
-        <Alert key={warning} className="consequence" title={sentence(warning)} />
-      ))}
+      <Remarks remarks={measured.warnings} />
       <div className="buttons">
         <Button
           size="lg"
@@ -121,8 +120,4 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
       </div>
     </section>
   );
-}
-
-function sentence(text: string): string {
-  return `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
 }

@@ -1,5 +1,6 @@
 // Type of the plan in `GET /api/plan`, which the server's schema describes only as an object.
 import type { PlanMessage } from "../../../api";
+import type { Remark } from "../../parts/Remarks";
 import type { Vec3 } from "../slices/vectors";
 
 export type PlanAnswer = PlanMessage;
@@ -19,7 +20,7 @@ export interface Pedicle extends Numbers {
   outline_lps_mm: Vec3[];
   seed_lps_mm: Vec3;
   sd: Numbers & { isthmus_mm: number };
-  warnings: string[];
+  warnings: Remark[];
 }
 
 export interface PedicleRecord {

@@ -1,16 +1,12 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
-import { formatNumber } from "../../../live/rounding";
+import { formatCount, formatNumber } from "../../../live/rounding";
 import type { DocumentMessage } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
+import { Remarks, type Remark } from "../../parts/Remarks";
 import { vec3 } from "../slices/vectors";
 
 type Surface = DocumentMessage;
-
-interface Remark {
-  message: string;
-  remedy: string;
-}
 
 /** Source, size and warnings of the surface. */
 export function SurfaceNumbers({ surface }: { surface: Surface }): ReactNode {
@@ -32,7 +28,7 @@ export function SurfaceNumbers({ surface }: { surface: Surface }): ReactNode {
         </div>
         <div className="figure">
           <dt>{texts.faces}</dt>
-          <dd>{Number(content["faces"]).toLocaleString(document.documentElement.lang)}</dd>
+          <dd>{formatCount(Number(content["faces"]))}</dd>
         </div>
         {low !== null && high !== null && (
           <div className="figure">
@@ -47,11 +43,7 @@ export function SurfaceNumbers({ surface }: { surface: Surface }): ReactNode {
           </div>
         )}
       </dl>
-      {remarks.map((one) => (
-        <Alert key={one.message} className="consequence" title={one.message}>
-          {one.remedy}
-        </Alert>
-      ))}
+      <Remarks remarks={remarks} />
     </div>
   );
 }

@@ -4,6 +4,7 @@ import { deleteRegistrationNudgesLast, getRegistrationNudges, postRegistrationNu
 import { QueryStatus } from "../../../rest/QueryStatus";
 import { useQuery } from "../../../rest/useQuery";
 import { useAction } from "../../../rest/useAction";
+import { formatExact } from "../../../live/rounding";
 import { Icon } from "../../../panes/Icon";
 import { useTexts } from "../../../texts/TextsContext";
 import { useProcedure } from "../../../app/procedure";
@@ -14,7 +15,7 @@ import { NudgeLog } from "./NudgeLog";
 import { NudgePad, type Axis, type Kind } from "./NudgePad";
 import { NudgeSums } from "./NudgeSums";
 
-const STEPS = ["0.1", "0.5", "1"];
+const STEPS = [0.1, 0.5, 1];
 
 /** One step at a time, the total with its limit, and undo. */
 export function NudgesWork(): ReactNode {
@@ -23,7 +24,7 @@ export function NudgesWork(): ReactNode {
   const madeBy = useMadeBy();
   const query = useQuery((signal) => getRegistrationNudges({ signal }));
   const [kind, setKind] = useState<Kind>("shift");
-  const [step, setStep] = useState("0.5");
+  const [step, setStep] = useState(0.5);
   const doing = useAction();
   const { data } = query;
 
@@ -38,7 +39,7 @@ export function NudgesWork(): ReactNode {
       });
   };
   const nudge = (axis: Axis, way: 1 | -1): void => {
-    run(() => postRegistrationNudges({ body: { made_by: madeBy, kind, axis, amount: way * Number(step) } }));
+    run(() => postRegistrationNudges({ body: { made_by: madeBy, kind, axis, amount: way * step } }));
   };
   return (
     <>
@@ -61,9 +62,14 @@ export function NudgesWork(): ReactNode {
           <SegmentedControl
             size="lg"
             aria-label={texts.nudges.step}
-            value={step}
-            onChange={setStep}
-            data={STEPS.map((one) => ({ value: one, label: `${one} ${kind === "shift" ? "mm" : "°"}` }))}
+            value={String(step)}
+            onChange={(value) => {
+              setStep(Number(value));
+            }}
+            data={STEPS.map((one) => ({
+              value: String(one),
+              label: `${formatExact(one)} ${kind === "shift" ? "mm" : "°"}`,
+            }))}
           />
         </div>
         <NudgePad kind={kind} disabled={doing.busy} onNudge={nudge} />

@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { Rejection } from "../../../rest/client";
 import { useTexts } from "../../../texts/TextsContext";
+import { Remarks } from "../../parts/Remarks";
 import { Measure } from "../Measure";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { useSides } from "../useSides";
@@ -43,11 +44,7 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
           />
         )}
       </dl>
-      {points.remarks.map((remark) => (
-        <p className="warning" key={remark.code}>
-          ▲ {remark.message}. {remark.remedy}
-        </p>
-      ))}
+      <Remarks remarks={points.remarks} />
       <div data-testid="points-missing">
         {points.missing.map((problem) => (
           <RegistrationRejection key={problem.code} rejection={new Rejection(problem)} />

@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { Rejection } from "../../../rest/client";
 import type { SweepFitMessage } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
+import { Remarks } from "../../parts/Remarks";
 import { RegistrationRejection } from "../RegistrationRejection";
 import { RegistrationNumbers } from "../RegistrationNumbers";
 
@@ -17,11 +18,7 @@ export function SweepFit({ fit }: { fit: SweepFitMessage }): ReactNode {
       <p>
         {texts.weakest}: <strong>{way}</strong>
       </p>
-      {fit.remarks.map((remark) => (
-        <p className="warning" key={remark.code}>
-          ▲ {remark.message}. {remark.remedy}
-        </p>
-      ))}
+      <Remarks remarks={fit.remarks} />
       {fit.missing.map((problem) => (
         <RegistrationRejection key={problem.code} rejection={new Rejection(problem)} />
       ))}
