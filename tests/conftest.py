@@ -6,11 +6,16 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+import hypothesis
 import pytest
 from playwright.sync_api import Browser, sync_playwright
 
 # Set before NumPy is loaded, whose threads spin while waiting: workers use the cores already.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+# A law has no time limit of its own: on a loaded machine a single example may take seconds.
+hypothesis.settings.register_profile("coaxial", deadline=None)
+hypothesis.settings.load_profile("coaxial")
 
 CHECKOUT = Path(__file__).resolve().parents[1]
 IN_BROWSER = CHECKOUT / "tests" / "browser"

@@ -16,6 +16,13 @@ Image8 = npt.NDArray[np.uint8]
 
 BLACK, WHITE = 30.0, 215.0
 RAYS = 6  # a side, in each pixel
+RAYS_FROM_CORNERS = np.array(
+    [
+        [(1.0 - b) * (1.0 - a), (1.0 - b) * a, b * (1.0 - a), b * a]
+        for b in (np.arange(RAYS) + 0.5) / RAYS
+        for a in (np.arange(RAYS) + 0.5) / RAYS
+    ]
+)
 QUIET_RATIO = 0.2
 SIDE_MM = 25.0
 
@@ -136,42 +143,67 @@ def _draw(picture: npt.NDArray[np.float64], camera: CameraModel, one: Print) -> 
     right, bottom = np.minimum(np.ceil(paper.max(axis=0)).astype(int) + 4, [width, height])
     if right <= left or bottom <= top:
         return
-    rx, ry = _rays(camera, left, top, right, bottom).T
-    right_of, up_of, normal = one.pose.rotation.T
-    depth = float(normal @ one.pose.translation_mm) / (rx * normal[0] + ry * normal[1] + normal[2])
-    x, y = (
-        depth / one.side_mm * (rx * axis[0] + ry * axis[1] + axis[2])
-        - float(axis @ one.pose.translation_mm) / one.side_mm
-        for axis in (right_of, up_of)
-    )
+    forms = _plane_forms(camera, one, left, top, right, bottom)
+    grey, is_even = _even_grey(one, forms)
+    part = picture[top:bottom, left:right]
+    part[is_even] = np.where(np.isnan(grey), part, grey)[is_even]
+    x, y, denominator = (RAYS_FROM_CORNERS @ one_form[:, ~is_even] for one_form in forms)
+    x, y = x / denominator, y / denominator
     rows, columns = one.picture.shape
     ink = one.picture[
         np.clip(np.floor((0.5 - y) * rows), 0, rows - 1).astype(int),
         np.clip(np.floor((x + 0.5) * columns), 0, columns - 1).astype(int),
     ]
     far = np.maximum(np.abs(x), np.abs(y))
-    grey = np.where(far <= 0.5, BLACK + (WHITE - BLACK) / 255.0 * ink, WHITE)
-    shape = (bottom - top, RAYS, right - left, RAYS)
-    share = (far <= 0.5 + one.quiet_ratio).astype(float).reshape(shape).mean(axis=(1, 3))
-    paper_grey = np.where(far <= 0.5 + one.quiet_ratio, grey, 0.0).reshape(shape).mean(axis=(1, 3))
-    part = picture[top:bottom, left:right]
-    part *= 1.0 - share
-    part += paper_grey
+    on_paper = far <= 0.5 + one.quiet_ratio
+    seen = np.where(far <= 0.5, BLACK + (WHITE - BLACK) / 255.0 * ink, WHITE)
+    part[~is_even] = np.where(on_paper, seen, part[~is_even]).mean(axis=0)
 
 
-def _rays(camera: CameraModel, left: int, top: int, right: int, bottom: int) -> Array:
-    """Normalised directions (n, 2) of all samples of these pixels, row by row.
+def _plane_forms(camera: CameraModel, one: Print, left: int, top: int, right: int, bottom: int) -> Array:
+    """Numerators of x and y on the print, in sides, and their denominator (3, 4, h, w), at corners of pixels.
 
-    The lens is evaluated at the pixels' corners; within a pixel it is linear to a millionth of a pixel.
+    They are linear in the direction of a ray. The lens is evaluated at the corners; within a pixel it is
+    linear to a millionth of a pixel.
 
     """
     u, v = np.meshgrid(np.arange(left, right + 1) - 0.5, np.arange(top, bottom + 1) - 0.5)
-    at = camera.normalised_from_px(np.stack([u, v], axis=-1).reshape(-1, 2)).reshape(*u.shape, 2)
-    b = ((np.arange(RAYS) + 0.5) / RAYS)[None, :, None, None]
-    upper, lower = at[:-1, None], at[1:, None]
-    lines = ((1.0 - b) * upper + b * lower).reshape(-1, right - left + 1, 1, 2)
-    a = b.reshape(1, 1, RAYS, 1)
-    return np.asarray((1.0 - a) * lines[:, :-1] + a * lines[:, 1:], dtype=np.float64).reshape(-1, 2)
+    rays = camera.normalised_from_px(np.stack([u, v], axis=-1).reshape(-1, 2)).T.reshape(2, *u.shape)
+    right_of, up_of, normal = (
+        axis[0] * rays[0] + axis[1] * rays[1] + axis[2] for axis in one.pose.rotation.T
+    )
+    offset = one.pose.rotation.T @ one.pose.translation_mm / one.side_mm
+    forms = np.stack(
+        [offset[2] * right_of - offset[0] * normal, offset[2] * up_of - offset[1] * normal, normal]
+    )
+    return np.stack([forms[:, :-1, :-1], forms[:, :-1, 1:], forms[:, 1:, :-1], forms[:, 1:, 1:]], axis=1)
+
+
+def _even_grey(one: Print, forms: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
+    """The grey (h, w) of pixels on ink or paper of one grey, NaN beside the paper, and which pixels are such.
+
+    A pixel shows a part of the rectangle that spans its corners.
+
+    """
+    x, y = forms[:2] / forms[2]
+    (x_low, x_high), (y_low, y_high) = ((at.min(axis=0), at.max(axis=0)) for at in (x, y))
+    rows, columns = one.picture.shape
+    first, last = np.floor((x_low + 0.5) * columns), np.floor((x_high + 0.5) * columns)
+    upper, lower = np.floor((0.5 - y_high) * rows), np.floor((0.5 - y_low) * rows)
+    in_square = (first >= 0) & (last < columns) & (upper >= 0) & (lower < rows)
+    i, k = (np.clip(at, 0, columns - 1).astype(int) for at in (first, last))
+    j, m = (np.clip(at, 0, rows - 1).astype(int) for at in (upper, lower))
+    sums = cv2.integral(one.picture)
+    total = sums[m + 1, k + 1] - sums[j, k + 1] - sums[m + 1, i] + sums[j, i]
+    is_white = in_square & (total == 255 * (m + 1 - j) * (k + 1 - i))
+    is_black = in_square & (total == 0)
+    edge = 0.5 + one.quiet_ratio
+    is_beside_square = (x_low > 0.5) | (x_high < -0.5) | (y_low > 0.5) | (y_high < -0.5)
+    is_on_paper = (x_low >= -edge) & (x_high <= edge) & (y_low >= -edge) & (y_high <= edge)
+    is_margin = is_beside_square & is_on_paper
+    is_beside_paper = (x_low > edge) | (x_high < -edge) | (y_low > edge) | (y_high < -edge)
+    grey = np.where(is_black, BLACK, np.where(is_white | is_margin, WHITE, np.nan))
+    return grey, is_black | is_white | is_margin | is_beside_paper
 
 
 def cluttered(camera: CameraModel, seed: int, *, count: int = 40) -> npt.NDArray[np.float64]:

@@ -1,6 +1,6 @@
 """A board moving in front of a rolling-shutter camera: points and rendered images."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -8,7 +8,7 @@ import numpy as np
 from tracker.camera import CameraModel, DotBoard
 from tracker.camera.detection import BoardView
 from tracker.camera.readout_time import TimedView
-from tracker.geometry import Array, rotation_from_vector
+from tracker.geometry import Array
 
 CAMERA = CameraModel(
     matrix=np.array([[620.0, 0, 319.5], [0, 620.0, 239.5], [0, 0, 1]]),
@@ -18,8 +18,8 @@ CAMERA = CameraModel(
 PITCH_MM = 15.0
 BOARD = DotBoard(columns=9, rows=7, pitch_mm=PITCH_MM, fiducials=(21, 24, 38))
 RATE_HZ = 30.0
-Pose = tuple[Array, Array]  # rotation, translation [mm]
-Motion = Callable[[float], Pose]
+# Rotations (n, 3, 3) and translations (n, 3) in mm at times (n,).
+Motion = Callable[[Array], tuple[Array, Array]]
 
 
 def shaken(
@@ -34,32 +34,40 @@ def shaken(
 
     middle_mm = np.asarray(BOARD.object_points_mm).mean(axis=0)
 
-    def at(at_s: float) -> Pose:
+    def at(at_s: Array) -> tuple[Array, Array]:
         phase = 2.0 * np.pi * hz * at_s
         turns = [
             tilt_deg + 3.0 * np.sin(0.7 * phase),
             4.0 * np.sin(0.9 * phase + 1.0),
             rotation_deg * np.sin(phase),
         ]
-        rotation = rotation_from_vector(np.radians(turns))
-        middle = rotation @ middle_mm
+        rotations = _rotations(np.radians(np.stack(turns, axis=1)))
         shift = [
             sideways_mm * np.sin(phase),
             upwards_mm * np.sin(0.83 * phase + 0.6),
-            5.0 * np.sin(0.5 * phase),
+            230.0 + 5.0 * np.sin(0.5 * phase),
         ]
-        return rotation, np.array([0.0, 0.0, 230.0]) + shift - middle
+        return rotations, np.stack(shift, axis=1) - rotations @ middle_mm
 
     return at
+
+
+def _rotations(vectors_rad: Array) -> Array:
+    """Rotation matrices (n, 3, 3) of rotation vectors (n, 3) that are not zero, by Rodrigues' formula."""
+    angle = np.linalg.norm(vectors_rad, axis=1)[:, None, None]
+    x, y, z = (vectors_rad / angle[:, :, 0]).T
+    zero = np.zeros_like(x)
+    axis = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=1).reshape(-1, 3, 3)
+    return np.asarray(np.eye(3) + np.sin(angle) * axis + (1.0 - np.cos(angle)) * (axis @ axis))
 
 
 def drifting(speed_mm_s: float) -> Motion:
     """A board that moves in one direction only."""
     still = shaken()
 
-    def at(at_s: float) -> Pose:
-        rotation, translation = still(0.0)
-        return rotation, translation + np.array([speed_mm_s * (at_s - 0.4), 0.0, 0.0])
+    def at(at_s: Array) -> tuple[Array, Array]:
+        rotations, translations = still(np.zeros_like(at_s))
+        return rotations, translations + np.outer(speed_mm_s * (at_s - 0.4), [1.0, 0.0, 0.0])
 
     return at
 
@@ -90,11 +98,9 @@ def seen_views(
     return views
 
 
-def _px(motion: Motion, points: Array, at_s: Sequence[float] | Array) -> Array:
-    placed = [motion(float(one)) for one in at_s]
-    return CAMERA.px_from_camera(
-        np.array([rotation @ point + shift for point, (rotation, shift) in zip(points, placed, strict=True)])
-    )
+def _px(motion: Motion, points: Array, at_s: Array) -> Array:
+    rotations, shifts = motion(at_s)
+    return CAMERA.px_from_camera(np.einsum("nij,nj->ni", rotations, points) + shifts)
 
 
 @cache
@@ -108,8 +114,7 @@ def _rays() -> Array:
 def image_at(motion: Motion, at_s: float, *, readout_s: float) -> np.ndarray:
     """The board in grey, each row at the time when it is read."""
     height = CAMERA.size_wh_px[1]
-    placed = [motion(at_s + readout_s * row / height) for row in range(height)]
-    rotations, shifts = (np.array(one) for one in zip(*placed, strict=True))
+    rotations, shifts = motion(at_s + readout_s * np.arange(height) / height)
     normals = rotations[:, :, 2]
     depth = (normals * shifts).sum(axis=1)[:, None] / np.einsum("rci,ri->rc", _rays(), normals)
     on_board = np.einsum("rci,rij->rcj", _rays() * depth[..., None] - shifts[:, None], rotations)[..., :2]

@@ -39,14 +39,14 @@ def views(camera: KnownCamera) -> list[BoardView]:
 
 def test_every_number_lies_in_its_interval_as_often_as_is_said() -> None:
     inside, every = 0, 0
-    for seed in range(12):
+    for seed in range(5):
         rng = np.random.default_rng(seed)
         known = known_camera(rng)
         report = calibrated(views_of(known, rng), known)
         true_value = known.true_value_from_name
         inside += sum(one.low_95 <= true_value[one.name] <= one.high_95 for one in report.parameters)
         every += len(report.parameters)
-    # 108 values, with neighbours correlated: three standard deviations of 95 %.
+    # `python -m tests.benchmarks calibration` has 400 cameras. Here 45 values, with neighbours correlated.
     assert 0.85 <= inside / every < 1.0
 
 

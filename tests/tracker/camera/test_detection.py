@@ -55,7 +55,7 @@ def found(board: Board, pose: int) -> BoardView:
         pytest.param(NARROW_ASYMMETRIC, 0.25, id="asymmetric-dots-higher-than-wide"),
     ],
 )
-@pytest.mark.parametrize("pose", [0, 4, 6])
+@pytest.mark.parametrize("pose", [0, 6], ids=["from-the-front", "tilted-and-turned"])
 def test_every_point_is_where_and_which_it_is(board: Board, pose: int, within_px: float) -> None:
     view = found(board, pose)
     assert view.ambiguity is PlacementAmbiguity.NONE
@@ -99,7 +99,8 @@ def test_a_misread_tag_never_mislabels_corners(
     image = picture(APRIL_GRID, POSES[0])
     right = {tag: truth_px[list(APRIL_GRID.corner_ids(tag))] for tag in read}
     seen_px = truth_px[list(APRIL_GRID.corner_ids(22))]
-    for number in set(range(30)) - {*read, 22}:
+    # Its neighbours, and others all over the board.
+    for number in {16, 21, 23, 28, *range(0, 30, 4)} - {*read, 22}:
         monkeypatch.setattr(april_grid, "_decoded", lambda *_, wrong=number: {**right, wrong: seen_px})
         view = find_board(image, APRIL_GRID)
         if isinstance(view, BoardView):
@@ -108,8 +109,8 @@ def test_a_misread_tag_never_mislabels_corners(
             assert len(read) == 1
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_hand_on_an_april_grid_costs_only_the_tags_that_it_touches(seed: int) -> None:
+def test_a_hand_on_an_april_grid_costs_only_the_tags_that_it_touches() -> None:
+    seed = 1
     image = picture(APRIL_GRID, POSES[seed]).astype(np.float64)
     hand = cv2.ellipse(np.zeros(image.shape), (250, 430), (40, 170), 20, 0, 360, 1.0, -1)
     grain = cv2.GaussianBlur(np.random.default_rng(seed).normal(0.0, 9.0, image.shape), (0, 0), 1.5)
@@ -152,8 +153,8 @@ def test_a_board_partly_out_of_view_gives_what_is_seen(board: Board) -> None:
         assert isinstance(board, CheckerBoard)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_finger_on_a_checkerboard_costs_only_the_corners_that_it_hides(seed: int) -> None:
+def test_a_finger_on_a_checkerboard_costs_only_the_corners_that_it_hides() -> None:
+    seed = 1
     image = picture(CHECKER, POSES[seed]).astype(np.float64)
     finger = cv2.ellipse(np.zeros(image.shape), (250, 430), (40, 170), 20, 0, 360, 1.0, -1)
     grain = cv2.GaussianBlur(np.random.default_rng(seed).normal(0.0, 9.0, image.shape), (0, 0), 1.5)
@@ -219,7 +220,7 @@ def test_what_is_not_the_board_is_not_found(
 
 
 def test_noise_alone_is_no_board() -> None:
-    noise = np.random.default_rng(3).integers(0, 255, (240, 320)).astype(np.uint8)
+    noise = np.random.default_rng(3).integers(0, 255, (120, 160)).astype(np.uint8)
     for board in (DOTS, CHECKER, CHARUCO, APRIL_GRID):
         assert isinstance(find_board(noise, board), BoardNotFound)
 

@@ -18,7 +18,7 @@ def reported(report: CalibrationReport) -> list[str]:
     return [one.message for one in report.warnings if one.code == "TWO_CAMERAS"]
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3, 5])
+@pytest.mark.parametrize("seed", [1, 5])
 def test_a_second_camera_of_one_make_is_reported_with_its_images(seed: int) -> None:
     rng = np.random.default_rng(seed)
     one = known_camera(rng)

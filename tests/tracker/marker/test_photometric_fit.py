@@ -75,8 +75,7 @@ def _explained(image: Image8, pose: Rigid[Camera, Marker], side_px: float) -> Ph
 
 
 @pytest.mark.parametrize("degraded", DEGRADED)
-@pytest.mark.parametrize("side_px", [28.0, 45.0])
-@pytest.mark.parametrize("from_deg", [10, 130, 250])
+@pytest.mark.parametrize(("side_px", "from_deg"), [(28.0, 130), (45.0, 250)])
 def test_a_marker_under_shadow_blur_or_glare_is_accepted(
     degraded: Degraded, side_px: float, from_deg: float
 ) -> None:
@@ -100,8 +99,8 @@ def test_most_occluded_markers_are_accepted() -> None:
     assert explained >= 5
 
 
-@pytest.mark.parametrize("degraded", DEGRADED)
-@pytest.mark.parametrize("field", range(9))
+# Each field once or twice, and each degradation three times.
+@pytest.mark.parametrize(("degraded", "field"), [(DEGRADED[n % 4], n % 9) for n in range(12)])
 def test_a_look_alike_that_differs_in_one_field_is_rejected(degraded: Degraded, field: int) -> None:
     pose = placed(CAMERA, MIDDLE, 30.0, tilt_deg=20, about_deg=40, roll_deg=15)
     image = degraded(
@@ -112,7 +111,7 @@ def test_a_look_alike_that_differs_in_one_field_is_rejected(degraded: Degraded, 
 
 
 @pytest.mark.parametrize("side_px", [14.0, 20.0, 27.0, 36.0])
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_frame_with_other_content_is_rejected(side_px: float, seed: int) -> None:
     random = np.random.default_rng([seed, 11])
     blobs = cv2.GaussianBlur(random.normal(size=(120, 120)), (0, 0), float(random.uniform(6, 20)))
@@ -150,6 +149,11 @@ def _dotted() -> Image8:
     return picture
 
 
+@pytest.fixture(scope="module")
+def dotted() -> MarkerModel:
+    return MarkerModel.from_image(_dotted(), side_mm=25.0, name="dotted")
+
+
 def _dazzling(image: Image8, side_px: float, from_deg: float) -> Image8:
     """Add a highlight four times as bright as paper, over a third of the square."""
     u, v = _u_v()
@@ -161,14 +165,15 @@ def _dazzling(image: Image8, side_px: float, from_deg: float) -> Image8:
 
 @pytest.mark.parametrize("turns", [1, 2, 3])
 @pytest.mark.parametrize("degraded", [_dazzling, _covered, _in_shadow])
-def test_a_rotated_marker_is_rejected_under_glare_or_occlusion(degraded: Degraded, turns: int) -> None:
-    square = MarkerModel.from_image(_dotted(), side_mm=25.0, name="dotted").square
+def test_a_rotated_marker_is_rejected_under_glare_or_occlusion(
+    degraded: Degraded, turns: int, dotted: MarkerModel
+) -> None:
     pose = placed(CAMERA, MIDDLE, 45.0, tilt_deg=20, about_deg=40, roll_deg=15)
     plain = rendered(CAMERA, [Print(picture=_dotted(), pose=pose)])
-    for from_deg in range(0, 360, 45):
+    for from_deg in (0, 135, 270):
         image = degraded(plain, 45.0, from_deg)
         corners = np.roll(corners_px_of(CAMERA, pose), turns, axis=0)
-        found = photometric_fit_of(image, square, corners, side_px=45.0)
+        found = photometric_fit_of(image, dotted.square, corners, side_px=45.0)
         assert found is None or not found.is_accepted, (from_deg, found)
 
 

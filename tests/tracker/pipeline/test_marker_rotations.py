@@ -29,7 +29,7 @@ MOONS = Face(
 
 
 # Each was claimed with another corner first.
-ONCE_TURNED = (*((RINGS, seed) for seed in (22, 61, 111, 144)), *((MOONS, seed) for seed in (102, 138, 1053)))
+ONCE_TURNED = (*((RINGS, seed) for seed in (22, 61)), *((MOONS, seed) for seed in (102, 1053)))
 
 
 @pytest.mark.parametrize(("face", "seed"), ONCE_TURNED)

@@ -102,8 +102,9 @@ def test_a_small_or_occluded_print_that_comes_into_view_is_noticed_later() -> No
         assert _images_until_noticed(first, then, maximum=300) <= THOROUGH_PERIOD_IMAGES == 256
 
 
-@pytest.mark.parametrize("remaining", [HERE, THERE], ids=["the first", "the second"])
-@pytest.mark.parametrize("rate_hz", [30.0, 8.0])
+@pytest.mark.parametrize(
+    ("remaining", "rate_hz"), [(HERE, 30.0), (THERE, 8.0)], ids=["the first", "the second, of a slow camera"]
+)
 def test_a_marker_has_a_pose_again_after_one_print_was_alone(
     remaining: Rigid[Camera, Marker], rate_hz: float
 ) -> None:
@@ -122,7 +123,7 @@ def test_a_marker_has_a_pose_again_after_one_print_was_alone(
 
 def test_a_second_print_that_moves_and_is_occluded_is_still_one() -> None:
     tracker = tracker_of()
-    for k in range(40):
+    for k in range(20):
         there = pose_of((330.0 + 30.0 * np.sin(0.15 * k), 150.0 + 20.0 * np.cos(0.15 * k)), roll_deg=2.0 * k)
         image = _twice(there, seed=k)
         image = _under_a_finger(image, there) if k >= 4 else image
@@ -132,7 +133,7 @@ def test_a_second_print_that_moves_and_is_occluded_is_still_one() -> None:
 @pytest.mark.parametrize(
     "picture",
     [
-        *(pytest.param(code_image(NEIGHBOURS[k]), id=f"one field differs: {k}") for k in (0, 4, 8)),
+        *(pytest.param(code_image(NEIGHBOURS[k]), id=f"one field differs: {k}") for k in (0, 4)),
         pytest.param(code_image(OTHER), id="another code"),
         pytest.param(np.ascontiguousarray(code_image()[:, ::-1]), id="its reflection"),
         pytest.param(np.zeros((120, 120), np.uint8), id="a black square"),
@@ -142,7 +143,7 @@ def test_what_is_not_the_same_shape_is_no_second_print(picture: Image8) -> None:
     images = [_image((HERE, code_image()), (THERE, picture), seed=k) for k in range(4)]
     tracker = tracker_of()
     assert isinstance(tracker.search(images[0])["code"], Seen)
-    for k in range(2 * PERIOD_IMAGES + 2):
+    for k in range(PERIOD_IMAGES + 2):
         sighting = tracker.step(images[k % 4], captured_at_s=k / 30, full_search=k % 5 == 0)["code"]
         assert off_px(seen(sighting), HERE) < 0.3
 

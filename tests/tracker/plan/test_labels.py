@@ -1,7 +1,9 @@
 """Labels of vertebrae: counting of levels, start points for pedicles, and contradictions to a measurement."""
 
 import dataclasses
+import functools
 import tracemalloc
+from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +12,7 @@ import pytest
 from tests.tracker.plan.label_phantoms import labelled_spine, three_levels
 from tracker.errors import PlanError
 from tracker.geometry import Array, rotation_from_vector
-from tracker.plan import Channel, measure_pedicle
+from tracker.plan import Channel, Volume, measure_pedicle
 from tracker.plan.labels import (
     CLASS_OF_LEVEL,
     LabelVolume,
@@ -120,19 +122,33 @@ def test_a_channel_lies_in_the_label_of_its_level_or_is_refused() -> None:
 TURNED = rotation_from_vector(np.array([0.2, 0.12, -0.25]))
 
 
+@functools.cache
+def scanned() -> tuple[Volume, LabelVolume]:
+    return labelled_spine(("L3",))
+
+
+@functools.cache
+def turned() -> tuple[Volume, LabelVolume]:
+    return labelled_spine(("L3",), rotation=TURNED)
+
+
 @pytest.mark.parametrize(
-    ("spacing_mm", "rotation", "mirror"),
+    ("scan", "rotation", "mirror", "measured"),
     [
-        pytest.param((1.0, 1.0, 1.0), np.eye(3), 1.0, id="as-scanned"),
-        pytest.param((0.8, 0.8, 2.5), np.eye(3), 1.0, id="thick-slices"),
-        pytest.param((1.0, 1.0, 1.0), TURNED, 1.0, id="turned-and-tilted"),
-        pytest.param((1.0, 1.0, 1.0), TURNED, -1.0, id="mirrored"),
+        pytest.param(scanned, np.eye(3), 1.0, ("left", "right"), id="as-scanned"),
+        pytest.param(
+            lambda: labelled_spine(("L3",), spacing_mm=(0.8, 0.8, 2.5)),
+            *(np.eye(3), 1.0, ("left",)),
+            id="thick-slices",
+        ),
+        pytest.param(turned, TURNED, 1.0, ("right",), id="turned-and-tilted"),
+        pytest.param(turned, TURNED, -1.0, ("left",), id="mirrored"),
     ],
 )
 def test_both_pedicles_are_measured_from_the_label_without_a_click(
-    spacing_mm: tuple[float, float, float], rotation: Array, mirror: float
+    scan: Callable[[], tuple[Volume, LabelVolume]], rotation: Array, mirror: float, measured: tuple[str, ...]
 ) -> None:
-    volume, labels = labelled_spine(("L3",), spacing_mm=spacing_mm, rotation=rotation)
+    volume, labels = scan()
     if mirror < 0.0:
         # The rows run the other way, and so does the patient.
         flip = np.diag([-1.0, 1.0, 1.0, 1.0])
@@ -144,6 +160,8 @@ def test_both_pedicles_are_measured_from_the_label_without_a_click(
     for start, sign in zip(starts, (1.0, -1.0), strict=True):
         off = rotation.T @ start.point_lps_mm - PEDICLE_MM * [sign, 1.0, 1.0]
         assert np.abs(off).max() < 6.0
+        if start.side not in measured:
+            continue
         measure = measure_pedicle(volume, start.point_lps_mm, start.side)
         assert measure.width_mm == pytest.approx(9.3, abs=0.4)
         check_measure(labels, "L3", measure)
@@ -168,7 +186,7 @@ def test_a_label_without_canal_or_pedicle_gives_no_start() -> None:
 
 
 def test_a_label_that_contradicts_the_measurement_makes_it_doubtful() -> None:
-    volume, labels = labelled_spine(("L3",))
+    volume, labels = scanned()
     start = pedicle_start_points(labels, "L3")[0]
     measure = measure_pedicle(volume, start.point_lps_mm, "left")
 

@@ -35,8 +35,10 @@ def hidden_way(fixed: np.ndarray, wrong: int) -> np.ndarray:
     return np.linalg.eigh(np.eye(3) - row @ np.linalg.solve(normal, row.T))[1][:, 0]
 
 
-@pytest.mark.parametrize("stated", [True, False], ids=["tips-state-noise", "residuals-only"])
-@pytest.mark.parametrize("count", [4, 5, 6, 8])
+# `python -m tests.tracker.registration.outlier_study` has each number of landmarks, and more draws.
+@pytest.mark.parametrize(
+    ("count", "stated"), [(4, True), (6, False)], ids=["tips-state-noise", "residuals-only"]
+)
 def test_a_landmark_6_mm_off_is_rejected_and_named_and_good_ones_pass(count: int, stated: bool) -> None:
     good = study(count, 40, outlier_mm=0.0, stated=stated)
     bad = study(count, 40, outlier_mm=OUTLIER_MM, stated=stated)
@@ -49,7 +51,7 @@ def test_a_landmark_6_mm_off_is_rejected_and_named_and_good_ones_pass(count: int
 
 
 def test_three_landmarks_cannot_show_a_mistaken_one_and_say_so() -> None:
-    bad = study(3, 100, outlier_mm=OUTLIER_MM, stated=True)
+    bad = study(3, 50, outlier_mm=OUTLIER_MM, stated=True)
     assert np.mean(bad.rejected) < 0.8
     assert np.mean(bad.inside_alone) < 0.6
     assert np.mean(bad.inside) >= 0.85

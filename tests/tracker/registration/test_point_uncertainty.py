@@ -25,7 +25,7 @@ from tracker.registration.points import (
 from tracker.registration.points.uncertainty import expected_tre_mm, variance_ratio_with_more
 
 # `python -m tests.benchmarks.drawn_coverage` has more, and shares with confidence bounds.
-RUNS, TRE_RUNS = 60, 500
+RUNS, TRE_RUNS = 30, 250
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -124,7 +124,7 @@ def test_the_error_with_more_landmarks_is_the_one_that_they_give() -> None:
     twice = np.vstack([VERTEBRA, VERTEBRA * [1.0, -1.0, 1.0] + [0.0, 6.0, 0.0]])
     twice[6:] += VERTEBRA.mean(axis=0) - twice[6:].mean(axis=0)
     target = np.array([15.0, -20.0, 5.0])
-    for _ in range(100):
+    for _ in range(40):
         truth = touched(twice, rng, 0.4)
         few, many = (
             register_points(
@@ -152,7 +152,7 @@ def test_stated_and_common_errors_have_their_own_shares_with_more_landmarks() ->
         tool="drill", covariance_mm2=0.3**2 * np.eye(3), anchor_from_marker=np.tile(np.eye(3), (12, 1, 1))
     )
     expected, found = [], []
-    for _ in range(60):
+    for _ in range(20):
         truth = touched(twice, rng, 0.4)
         whole = PointPairs(
             fixed_mm=truth.fixed_mm,
@@ -177,7 +177,7 @@ def test_planned_landmarks_are_expected_to_give_what_their_fit_states() -> None:
     target = np.array([15.0, -20.0, 5.0])
     identity: Rigid[Vertebra, Anchor] = Rigid(rotation=np.eye(3), translation_mm=np.zeros(3))
     stated = []
-    for _ in range(100):
+    for _ in range(40):
         truth = touched(VERTEBRA, rng, 0.7)
         pairs = PointPairs(fixed_mm=truth.fixed_mm, moving_mm=truth.moving_mm)
         stated.append(np.trace(register_points(pairs, settings=BARE).target_covariance_mm2(target)))

@@ -64,7 +64,7 @@ def test_an_exact_sweep_comes_to_lie_where_it_was_made() -> None:
 
 def test_the_stated_uncertainty_holds_the_truth() -> None:
     rng, inside, off, stated, expected = np.random.default_rng(2), [], [], [], []
-    for _ in range(12):
+    for _ in range(6):
         truth = sweep_over(corners_from_behind(), rng)
         found = laid(truth)
         error, covariance = off_at_target(found, truth), found.target_covariance_mm2(TARGET)
@@ -72,7 +72,7 @@ def test_the_stated_uncertainty_holds_the_truth() -> None:
         off.append(float(error @ error))
         stated.append(found.tre_stated_mm(TARGET))
         expected.append(found.tre_expected_mm(TARGET))
-    assert sum(inside) >= 10
+    assert sum(inside) >= 5
     assert 0.5 < np.mean(stated) / np.sqrt(np.mean(off)) < 2.0
     assert 0.7 < np.mean(expected) / np.sqrt(np.mean(off)) < 1.5
 

@@ -53,9 +53,14 @@ def marker_at(theatre: Theatre, name: str, at_s: float) -> tuple[slice, slice]:
     return inside(theatre.camera.px_from_camera(truth.camera_from_reference.move_points(square)))
 
 
+@lru_cache(maxsize=24)
+def image_of(noise: float, at_s: float) -> npt.NDArray[np.uint8]:
+    """The image, which shows both markers; tests of one and of the other share it."""
+    return staged(noise)[1].image_at(at_s)
+
+
 def noise_of(at_s: float, where: tuple[slice, slice]) -> npt.NDArray[np.float64]:
-    noisy, clean = staged(1.0)[1], staged(0.0)[1]
-    return noisy.image_at(at_s)[where].astype(np.float64) - clean.image_at(at_s)[where]
+    return image_of(1.0, at_s)[where].astype(np.float64) - image_of(0.0, at_s)[where]
 
 
 def test_no_two_images_are_equal_even_where_nothing_moves() -> None:
@@ -67,11 +72,11 @@ def test_no_two_images_are_equal_even_where_nothing_moves() -> None:
 
 @pytest.mark.parametrize("name", ["drill", "reference"])
 def test_a_markers_noise_is_as_strong_as_its_light_makes_it(name: str) -> None:
-    theatre, clean = staged(0.0)
+    theatre, _ = staged(0.0)
     off, expected = [], []
     for at_s in (9.0, 12.5, 20.0):
         where = marker_at(theatre, name, at_s)
-        levels = clean.image_at(at_s)[where]
+        levels = image_of(0.0, at_s)[where]
         plain = levels[(levels > 4) & (levels < 240)].astype(np.float64)
         off.append((noise_of(at_s, where)[(levels > 4) & (levels < 240)] ** 2).mean())
         # Of shot and read noise, and of rounding to whole levels.
@@ -82,7 +87,7 @@ def test_a_markers_noise_is_as_strong_as_its_light_makes_it(name: str) -> None:
 @pytest.mark.parametrize("name", ["drill", "reference"])
 def test_a_markers_noise_is_new_in_each_image(name: str) -> None:
     theatre, _ = staged(0.0)
-    times_s = [20.0 + number / 30.0 for number in range(8)]
+    times_s = [20.0 + number / 30.0 for number in range(4)]
     fields = [noise_of(at_s, marker_at(theatre, name, at_s)) for at_s in times_s]
     rows, columns = (min(field.shape[axis] for field in fields) for axis in (0, 1))
     inner = np.s_[8 : rows - 8, 8 : columns - 8]
@@ -97,10 +102,9 @@ def test_a_markers_noise_is_new_in_each_image(name: str) -> None:
         assert max(abs(np.corrcoef(here, there.ravel())[0, 1]) for there in moved) < 0.12
 
 
-@pytest.mark.parametrize("light", [1.0, 10.0])
-def test_noise_never_wraps_around_black_or_white(light: float) -> None:
-    noisy, clean = staged(10.0, light)[1], staged(0.0, light)[1]
-    for at_s in (DRILL_AWAY_S, DRILL_AWAY_S + 0.7, DRILL_AWAY_S + 1.4):
+def test_noise_never_wraps_around_black_or_white() -> None:
+    noisy, clean = staged(10.0, 10.0)[1], staged(0.0, 10.0)[1]
+    for at_s in (DRILL_AWAY_S, DRILL_AWAY_S + 0.7):
         off = noisy.image_at(at_s).astype(np.int16) - clean.image_at(at_s)
         # Six deviations of a white pixel's noise.
         assert np.abs(off).max() < 6.0 * 10.0 * 1.85
@@ -118,7 +122,7 @@ def test_a_jump_causes_no_motion_blur() -> None:
 
 def test_strips_show_what_one_large_rectangle_would(monkeypatch: pytest.MonkeyPatch) -> None:
     _, renderer = staged(0.0)
-    times_s = (0.4, 9.0, 16.0, 24.0, 30.8)
+    times_s = (0.4, 16.0, 30.8)
     in_strips = [renderer.image_at(at_s).astype(np.int16) for at_s in times_s]
     monkeypatch.setattr(strips, "STRIP_PX", 544)
     for image, at_s in zip(in_strips, times_s, strict=True):
@@ -161,8 +165,7 @@ def test_fewer_samples_are_taken_only_where_blur_hides_their_softness() -> None:
 
 
 def test_a_drill_that_leaves_the_image_is_drawn_at_every_place() -> None:
-    theatre = Theatre(TheatreSettings(seed=1))
-    renderer = theatre.renderer(store=STILLS)
+    renderer = Theatre(TheatreSettings(seed=1, size_wh_px=(640, 360))).renderer(store=STILLS)
     for number in range(285, 316):
         image = renderer.image_at(number / 10.0)
-        assert image.shape == (720, 1280, 3)
+        assert image.shape == (360, 640, 3)

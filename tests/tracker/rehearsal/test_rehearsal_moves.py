@@ -19,8 +19,8 @@ AT_S = 20.0
 
 
 @lru_cache(maxsize=8)
-def eventful(*events: Event, seed: int = 1) -> tuple[Theatre, Renderer]:
-    settings = TheatreSettings(seed=seed, size_wh_px=SIZE, skill=Skill.GOOD, reference=True, events=events)
+def eventful(*events: Event) -> tuple[Theatre, Renderer]:
+    settings = TheatreSettings(seed=1, size_wh_px=SIZE, skill=Skill.GOOD, reference=True, events=events)
     theatre = Theatre(settings)
     renderer = theatre.renderer(store=STILLS)
     assert isinstance(renderer, Renderer)
@@ -65,11 +65,10 @@ def test_the_two_markers_look_nothing_like_each_other() -> None:
             assert np.corrcoef(drill.ravel(), np.rot90(face, turns).ravel())[0, 1] < 0.75
 
 
-@pytest.mark.parametrize("seed", [4])
 @pytest.mark.parametrize("kind", [None, EventKind.CAMERA_MOVES, EventKind.PATIENT_MOVES])
-def test_both_markers_are_found_where_the_truth_has_them(kind: EventKind | None, seed: int) -> None:
+def test_both_markers_are_found_where_the_truth_has_them(kind: EventKind | None) -> None:
     events = () if kind is None else (Event(kind=kind, at_s=10.0),)
-    theatre, renderer = eventful(*events, seed=seed)
+    theatre, renderer = eventful(*events)
     truth = theatre.truth_at(AT_S)
     sightings = found(theatre, renderer, AT_S)
     for name, true in (("drill", truth.camera_from_marker), ("reference", truth.camera_from_reference)):

@@ -29,7 +29,7 @@ CHANNEL = Channel(
 TIP_MM, AXIS = np.array([0.0, -120.0, -10.0]), np.array([0.0, -1.0, 0.0])
 TIP_SD_MM, NOISE_SD_MM, FLE_SD_MM = 0.4, 0.1, 0.5 / np.sqrt(3.0)
 MARKER_COVARIANCE = np.diag([0.02, 0.02, 0.08, 3e-4, 3e-4, 1e-4]) ** 2
-DRAWS = 400
+DRAWS = 200
 
 
 def _tool(tip_mm: Array) -> ToolModel:

@@ -18,7 +18,7 @@ from tracker.verification import (
 )
 from tracker.verification.figures import share_of
 
-SETTINGS = VerificationSettings(observations=6)
+SETTINGS = VerificationSettings(observations=4)
 
 
 @pytest.fixture(scope="module")

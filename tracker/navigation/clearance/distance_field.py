@@ -21,7 +21,7 @@ from tracker.navigation.clearance.distance_kernels import (
 )
 from tracker.navigation.clearance.posterior_surface import PosteriorSurface, find_posterior_surface
 from tracker.navigation.clearance.triangles import subdivide_triangles, triangles_near_grid
-from tracker.navigation.clearance.voxels import CONNECTIVITY_6, Flags, Grid, fill_holes, voxelise
+from tracker.navigation.clearance.voxels import Flags, Grid, dilated, fill_holes, voxelise
 from tracker.navigation.directions import channel_directions
 from tracker.plan.channel import Channel
 from tracker.plan.surface import Surface
@@ -231,7 +231,7 @@ def _bone_around(
     for closed_mm in closing_radius_mm:
         bone = fill_holes(solid, step_mm=grid.step_mm, closing_radius_mm=closed_mm)
         if not bone.all():
-            ratio = float(scipy.ndimage.binary_dilation(bone, CONNECTIVITY_6)[line].mean())
+            ratio = float(dilated(bone)[line].mean())
         if ratio >= MIN_IN_BONE_RATIO:
             return bone, closed_mm
     raise PlanError(

@@ -278,8 +278,8 @@ def test_what_only_a_new_image_shows_is_not_claimed_of_an_old_one(condition: Con
 
 @pytest.mark.parametrize("condition", Condition)
 def test_each_condition_is_raised_and_goes(condition: Condition) -> None:
-    stream = Stream()
-    assert stream.images(6.0).alarms == ()
+    stream = Stream(rate_hz=15.0)
+    assert stream.images(1.0).alarms == ()
     picture = stream.images(6.0, **ALARMING[condition])
     assert [alarm.condition for alarm in picture.alarms] == [condition]
     stream.acknowledge()
@@ -288,7 +288,7 @@ def test_each_condition_is_raised_and_goes(condition: Condition) -> None:
 
 @pytest.mark.parametrize("condition", Condition)
 def test_before_navigation_only_disk_recording_and_a_hold_are_heard(condition: Condition) -> None:
-    stream = Stream()
+    stream = Stream(rate_hz=15.0)
     picture = stream.images(10.0, **ALARMING[condition], navigating=False)
     outside_navigation = {Condition.DISK_NEARLY_FULL, Condition.RECORDING_STOPPED, Condition.HOLD_REQUESTED}
     assert {alarm.condition for alarm in picture.alarms} == {condition} & outside_navigation

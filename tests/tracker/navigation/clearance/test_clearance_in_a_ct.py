@@ -7,7 +7,8 @@ import pytest
 from scipy.special import ndtr
 
 from tests.tracker.navigation.bones import drill_at
-from tests.tracker.plan.bone.phantoms import SCANS, WAIST_MM, Scan
+from tests.tracker.plan.bone.phantoms import SCANS as EVERY
+from tests.tracker.plan.bone.phantoms import WAIST_MM, Scan
 from tracker.geometry import Array, Rigid, Tool, Vertebra
 from tracker.navigation.clearance import (
     NearestWall,
@@ -20,6 +21,8 @@ from tracker.navigation.uncertainty import UncertainPose, probability_of_breach
 from tracker.plan import Channel
 from tracker.plan.bone import bone_surface
 
+# How far the surface of each scan is from the bone is tested with the surface.
+SCANS = {name: EVERY[name] for name in ("usual-cortex", "thin-cortex-in-coarse-voxels")}
 RADIUS_MM = 2.0
 # Along the phantom's pedicle, as far as into the body.
 AXIS = np.array([-np.tan(np.radians(14.0)), -1.0, np.tan(np.radians(-6.0))])

@@ -178,21 +178,22 @@ def test_the_bone_is_the_wall_where_it_is_known_and_agrees_with_the_plan() -> No
     assert (chosen.wall.against, chosen.remarks) == (WallSource.BONE, ())
 
 
-@pytest.mark.parametrize("measured", [True, False])
 @pytest.mark.parametrize(
-    ("surface", "codes"),
+    ("surface", "measured", "codes"),
     [
-        pytest.param(None, [], id="no-surface"),
-        pytest.param(rod(1.7), ["BONE_CONTRADICTS_PLAN"], id="walls-eaten-by-a-threshold"),
+        pytest.param(None, True, [], id="no-surface"),
+        pytest.param(None, False, [], id="no-surface-and-no-pedicle"),
+        pytest.param(rod(1.7), True, ["BONE_CONTRADICTS_PLAN"], id="walls-eaten-by-a-threshold"),
         pytest.param(
             Surface(vertices_mm=rod().vertices_mm + 99.0, faces=rod().faces),
+            True,
             ["BONE_NOT_AT_CHANNEL"],
             id="a-surface-elsewhere",
         ),
     ],
 )
 def test_without_a_surface_that_fits_the_plan_the_next_best_wall_is_taken_and_reported(
-    surface: Surface | None, codes: list[str], *, measured: bool
+    surface: Surface | None, *, measured: bool, codes: list[str]
 ) -> None:
     chosen = select_wall(ROD_CHANNEL, surface, _round_pedicle(4.5) if measured else None, radius_mm=2.0)
     assert chosen.wall.against is (WallSource.PEDICLE if measured else WallSource.CHANNEL)

@@ -1,6 +1,7 @@
 """A CT of an ellipsoidal bone with known surface: each voxel contains its fraction of bone."""
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import numpy.typing as npt
@@ -63,6 +64,18 @@ def scanned(
     fine: int = 4,
 ) -> Volume:
     """Each voxel is the mean of `fine`^3 points in it."""
+    return _scanned(bodies, affine.tobytes(), shape_ijk, noise_hu, fine)
+
+
+@cache
+def _scanned(
+    bodies: tuple[Ellipsoid, ...],
+    affine_bytes: bytes,
+    shape_ijk: tuple[int, int, int],
+    noise_hu: float,
+    fine: int,
+) -> Volume:
+    affine = np.frombuffer(affine_bytes).reshape(4, 4)
     columns, rows, slices = shape_ijk
     k, j, i = np.meshgrid(np.arange(slices), np.arange(rows), np.arange(columns), indexing="ij")
     index = np.stack([i, j, k], axis=-1).astype(np.float64)
