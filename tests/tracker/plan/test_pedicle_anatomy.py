@@ -48,7 +48,7 @@ def test_a_lower_thoracic_pedicle_runs_forwards_inside_the_bone(
         assert np.linalg.norm(one.isthmus_lps_mm - np.mean(clicks, axis=0)) < 5.0
         # A short pedicle determines its direction to some degrees only, as stated.
         assert 2.0 <= one.sd.transverse_deg <= 8.0
-        assert bone_around(thoracic(), one) > 1.0
+    assert bone_around(thoracic(), found[0]) > 1.0
     assert np.ptp([one.transverse_deg for one in found]) < 4.0
 
 

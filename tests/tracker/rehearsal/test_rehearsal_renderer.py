@@ -60,8 +60,9 @@ def edge_offsets_px(image: npt.NDArray[np.uint8], theatre: Theatre, truth: Truth
     return np.asarray(out, dtype=np.float64)
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-@pytest.mark.parametrize("at_s", [3.3, 9.0, 17.77, 25.0], ids=["approach", "align", "drill", "drift"])
+@pytest.mark.parametrize(
+    ("seed", "at_s"), [(1, 3.3), (2, 9.0), (1, 17.77), (2, 25.0)], ids=["approach", "align", "drill", "drift"]
+)
 def test_every_edge_of_the_square_is_at_its_true_position(seed: int, at_s: float) -> None:
     theatre, renderer = staged(seed=seed)
     truth = theatre.truth_at(at_s)

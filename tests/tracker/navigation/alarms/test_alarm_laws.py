@@ -95,10 +95,11 @@ AT_ITS_THRESHOLD = [
 
 
 @pytest.mark.parametrize(("condition", "name", "limit", "noise"), AT_ITS_THRESHOLD)
-@pytest.mark.parametrize("off", [-0.7, 0.7], ids=lambda off: f"{off:+g} sd")
 def test_jitter_at_the_threshold_is_one_alarm_at_most(
-    condition: Condition, name: str, limit: float, noise: float, off: float
+    condition: Condition, name: str, limit: float, noise: float
 ) -> None:
+    # On the side of the alarm, so that it would often be raised and go.
+    off = 0.7 if name in {"breach_ratio", "past_depth_mm", "tip_sd_mm"} else -0.7
     stream, rng = Stream(), np.random.default_rng(7)
     for value in limit + noise * (off + rng.standard_normal(MINUTE_IMAGES)):
         stream.image(**{name: max(float(value), 0.0) if name == "breach_ratio" else float(value)})

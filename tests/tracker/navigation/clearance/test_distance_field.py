@@ -24,6 +24,7 @@ from tracker.navigation.clearance import (
     bone_distance_field,
     channel_distance_field,
 )
+from tracker.navigation.clearance.voxels import dilated
 from tracker.plan import Channel, Surface
 from tracker.plan.triangles.connectivity import Faces
 from tracker.rehearsal.anatomy import bone_field, pedicle_channels, vertebra_surface
@@ -100,6 +101,22 @@ def _finer(surface: Surface) -> Surface:
     divide: Callable[..., tuple[Array, Faces]] = trimesh.remesh.subdivide_to_size
     vertices, faces = divide(surface.vertices_mm, surface.faces, max_edge=1.2)
     return Surface(vertices_mm=vertices, faces=faces)
+
+
+@pytest.mark.parametrize(
+    ("is_diagonal", "inside", "in_corner"),
+    [pytest.param(False, 7, 4, id="over-faces"), pytest.param(True, 27, 8, id="over-edges-and-corners-too")],
+)
+def test_a_voxel_grows_into_its_neighbours_and_not_around_the_grid(
+    is_diagonal: bool, inside: int, in_corner: int
+) -> None:
+    for at, count in (((2, 2, 2), inside), ((0, 3, 0), in_corner), ((4, 0, 4), in_corner)):
+        voxels = np.zeros((5, 4, 5), np.bool_)
+        voxels[at] = True
+        grown = dilated(voxels, is_diagonal=is_diagonal)
+        assert grown.sum() == count
+        assert np.abs(np.argwhere(grown) - at).max() == 1
+        assert voxels.sum() == 1
 
 
 def test_a_bone_cut_open_in_front_goes_on_there() -> None:

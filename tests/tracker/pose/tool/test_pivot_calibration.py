@@ -12,7 +12,7 @@ from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector
 from tracker.pose.tool import Poses, RejectedReason, ToolGate, pivot_calibration, rms_3d_mm
 
 # `python -m tests.benchmarks.drawn_coverage` has more, and shares with confidence bounds.
-RUNS = 30
+RUNS = 12
 EXACT = Hand(shift_sd_mm=0.0, turn_sd_deg=(0.0, 0.0, 0.0))
 
 
@@ -79,7 +79,7 @@ def test_images_in_a_row_that_err_alike_do_not_make_the_tip_surer() -> None:
 def test_stated_covariances_make_the_tip_better_where_poses_differ() -> None:
     errors = {False: 0.0, True: 0.0}
     hand = Hand(shift_sd_mm=0.03, depth_sd_mm=0.5, turn_sd_deg=(0.3, 0.3, 0.05))
-    for seed in range(20):
+    for seed in range(6):
         for states in errors:
             made = pivoted(hand, seed=seed, states_covariance=states)
             found = pivot_calibration(made.poses)
