@@ -43,7 +43,7 @@
         for (let at = target.parentElement; at !== null; at = at.parentElement) {
             const { position, backgroundColor } = getComputedStyle(at);
             if (at.role === "dialog") return at;
-            if (/absolute|fixed/.test(position) && /^rgb\(/.test(backgroundColor)) return at;
+            if (/absolute|fixed|sticky/.test(position) && /^rgb\(/.test(backgroundColor)) return at;
         }
         return null;
     };

@@ -45,7 +45,7 @@ export function Player({ number, images, atS, isPlaying, onPlay, onNumber }: Pla
       <Slider
         className="review-scrubber"
         size="xl"
-        thumbSize={44}
+        thumbSize={48}
         min={0}
         max={Math.max(images - 1, 1)}
         label={null}

@@ -30,7 +30,7 @@ export function Greys(): ReactNode {
       </p>
       <Slider
         size="xl"
-        thumbSize={40}
+        thumbSize={48}
         min={50}
         max={6000}
         step={10}
@@ -46,7 +46,7 @@ export function Greys(): ReactNode {
       </p>
       <Slider
         size="xl"
-        thumbSize={40}
+        thumbSize={48}
         min={-1000}
         max={3000}
         step={10}

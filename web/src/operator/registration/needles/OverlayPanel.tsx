@@ -54,7 +54,7 @@ export function OverlayPanel({
         </span>
         <Slider
           size="xl"
-          thumbSize={36}
+          thumbSize={48}
           min={0}
           max={100}
           label={null}
