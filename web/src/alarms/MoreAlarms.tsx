@@ -4,7 +4,7 @@ import type { AlarmMessage } from "../live/messages";
 import { ProblemLines } from "../panes/ProblemLines";
 import { noteOf, problemsOf } from "../panes/problems";
 import { sentence } from "../operator/parts/format";
-import { textOf } from "../texts/text";
+import { languageOf, textOf } from "../texts/text";
 import { useTexts } from "../texts/TextsContext";
 import { AlarmLine } from "./AlarmSentence";
 
@@ -17,10 +17,7 @@ export function MoreAlarms({ alarms }: { alarms: readonly AlarmMessage[] }): Rea
   const isConnected = view.link === "open";
   const problems = isConnected ? problemsOf(view) : [];
   const note = isConnected ? noteOf(view) : null;
-  const messages = [...problems, ...(note === null ? [] : [note])].map(({ message }) =>
-    sentence(textOf(message, texts)),
-  );
-  const count = alarms.length + messages.length;
+  const count = alarms.length + problems.length + (note === null ? 0 : 1);
   // The band itself shows the highest alarm or, without alarms, the first problem, but no note.
   const others = alarms.length > 0 || problems.length > 0 ? count - 1 : count;
   const next = alarms[1];
@@ -39,7 +36,12 @@ export function MoreAlarms({ alarms }: { alarms: readonly AlarmMessage[] }): Rea
   return (
     <>
       <p className="heard-only" aria-live="polite">
-        {messages.join(" ")}
+        {problems.map((problem) => (
+          <span key={problem.code} lang={languageOf(problem, texts)}>
+            {sentence(textOf(problem.message, texts))}{" "}
+          </span>
+        ))}
+        {note !== null && sentence(textOf(note.message, texts))}
       </p>
       {count > 0 && (
         <button
