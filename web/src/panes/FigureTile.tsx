@@ -80,12 +80,13 @@ export function paintFigure(
   }
 }
 
-function limitText({ limit, status }: FigureMessage, name: FigureName, texts: Texts): string {
+function limitText({ value, limit, status }: FigureMessage, name: FigureName, texts: Texts): string {
   const { theatre, depthTexts } = texts;
   if (name === "depth" && status === "through") return `${MARKS.through}${depthTexts.past}`;
   if (limit === null) return "";
   const amount = formatNumber(limit);
-  if (name === "depth") return `${theatre.of} ${amount}`;
+  // Before the entry more is to go than the length: 65.0 of 55.0.
+  if (name === "depth") return (value ?? 0) < 0 ? "" : `${theatre.of} ${amount}`;
   const mark = MARKS[status];
   // The wall's limit is 0; this is the distance below which it is near.
   if (name === "wall") {
