@@ -79,7 +79,7 @@ def test_a_problem_states_whether_it_is_translated() -> None:
 def test_a_problem_that_persists_is_translated_once_and_another_anew() -> None:
     assert _sent("CAPTURE_MOVED", 0.52) is _sent("CAPTURE_MOVED", 0.52)
     other = _sent("CAPTURE_MOVED", 0.61)
-    assert "0.61" in other.message.de
+    assert "0,61" in other.message.de
     assert other.context["spread_mm"] == 0.61
 
 
