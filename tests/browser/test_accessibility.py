@@ -196,7 +196,7 @@ def test_the_light_theme(opened: Callable[..., Page], shared_theatre: Theatre) -
 
 @pytest.mark.parametrize("preferred", ["light", "dark"])
 @pytest.mark.parametrize("chosen", [None, "light", "dark", "pink"])
-def test_every_page_has_the_same_theme_before_its_first_paint(
+def test_every_page_has_its_theme_before_its_first_paint(
     browser: Browser, shared_theatre: Theatre, preferred: Literal["light", "dark"], chosen: str | None
 ) -> None:
     context = browser.new_context(color_scheme=preferred)
@@ -205,8 +205,10 @@ def test_every_page_has_the_same_theme_before_its_first_paint(
     # Nothing of the page's own script has run.
     context.route("**/assets/*.js", lambda route: route.abort())
     page = context.new_page()
-    theme = chosen if chosen in ("light", "dark") else preferred
     for path in ("", "enter", "operator/case", "theatre", "supervisor", "camera"):
+        # A theatre screen is dark unless chosen otherwise.
+        usual = "dark" if path == "theatre" else preferred
+        theme = chosen if chosen in ("light", "dark") else usual
         page.goto(f"http://127.0.0.1:{shared_theatre.port}/{path}")
         assert page.locator("html").get_attribute("data-theme") == theme
         ground = page.evaluate("getComputedStyle(document.documentElement).backgroundColor")

@@ -6,7 +6,8 @@
   } catch {
     // Storage is unavailable: same as on the first visit.
   }
-  const preferred = matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark";
+  const prefersLight = matchMedia("(prefers-color-scheme: light)").matches;
+  const preferred = prefersLight && !location.pathname.startsWith("/theatre") ? "light" : "dark";
   const theme = chosen === "light" || chosen === "dark" ? chosen : preferred;
   document.documentElement.dataset.theme = theme;
   document.documentElement.dataset.mantineColorScheme = theme;

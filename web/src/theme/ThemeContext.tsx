@@ -1,5 +1,6 @@
 // The theme of all pages, for the style sheets and for Mantine.
 import { MantineProvider } from "@mantine/core";
+import { useLocation } from "wouter";
 import { createContext, use, useLayoutEffect, useState, useSyncExternalStore, type ReactNode } from "react";
 import { theme as mantineTheme } from "./theme";
 import { otherTheme, storedTheme, storeTheme, themeOf, type ThemeName } from "./themeChoice";
@@ -13,9 +14,10 @@ const ThemeContext = createContext<ThemeValue | null>(null);
 const PREFERS_LIGHT = "(prefers-color-scheme: light)";
 
 export function ThemeProvider({ children }: { children: ReactNode }): ReactNode {
+  const [path] = useLocation();
   const [chosen, setChosen] = useState(storedTheme);
   const prefersLight = useSyncExternalStore(onPreference, () => matchMedia(PREFERS_LIGHT).matches);
-  const theme = themeOf(chosen, prefersLight);
+  const theme = themeOf(chosen, prefersLight, path);
   useLayoutEffect(() => {
     document.documentElement.dataset["theme"] = theme;
   }, [theme]);

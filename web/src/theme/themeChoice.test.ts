@@ -1,11 +1,12 @@
 import { expect, test } from "vitest";
 import { otherTheme, readTheme, themeOf } from "./themeChoice";
 
-test("a page has the chosen theme, else the one that the browser prefers", () => {
-  expect(themeOf(null, true)).toBe("light");
-  expect(themeOf(null, false)).toBe("dark");
-  expect(themeOf("dark", true)).toBe("dark");
-  expect(themeOf("light", false)).toBe("light");
+test("a page has the chosen theme, else the one that the browser prefers, and a theatre screen is dark", () => {
+  expect(themeOf(null, true, "/operator/plan")).toBe("light");
+  expect(themeOf(null, true, "/theatre")).toBe("dark");
+  expect(themeOf(null, false, "/")).toBe("dark");
+  expect(themeOf("dark", true, "/")).toBe("dark");
+  expect(themeOf("light", false, "/theatre")).toBe("light");
   expect(otherTheme("light")).toBe("dark");
 });
 

@@ -1,10 +1,11 @@
-// Which theme all pages of this browser have: what was chosen, else what the browser prefers. Pure but for the storage.
+// Which theme the pages of this browser have: what was chosen; else theatre screens, which are read from afar beside dark
+// pictures, are dark, and other pages as the browser prefers. Pure but for the storage.
 // `public/theme.js` applies the same rule before the first paint.
 
 export type ThemeName = "dark" | "light";
 
-export function themeOf(chosen: ThemeName | null, prefersLight: boolean): ThemeName {
-  return chosen ?? (prefersLight ? "light" : "dark");
+export function themeOf(chosen: ThemeName | null, prefersLight: boolean, path: string): ThemeName {
+  return chosen ?? (prefersLight && !path.startsWith("/theatre") ? "light" : "dark");
 }
 
 export function otherTheme(theme: ThemeName): ThemeName {
