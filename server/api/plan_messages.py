@@ -1,6 +1,6 @@
 """Messages about the plan."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
@@ -8,7 +8,7 @@ from fastapi import Query
 from pydantic import Field, StringConstraints
 
 from server.api.case_messages import HeadingMessage, heading_message
-from server.api.ct_messages import PointLps
+from server.api.ct_messages import PointLps, mapping_of
 from server.api.requester import MadeBy
 from server.procedure.plan import Author, NoClearance, PlannedClearance, Proposal, StoredPlan
 from server.stream.messages import Message
@@ -250,12 +250,12 @@ def plan_message(stored: StoredPlan) -> PlanMessage:
     active = stored.active
     return PlanMessage(
         heading=heading_message(stored.document, stored.validity),
-        plan=_mapping(worded(plan_to_mapping(stored.plan), requested_language())),
+        plan=mapping_of(worded(plan_to_mapping(stored.plan), requested_language())),
         used=_used(stored.plan),
         active_channel=None
         if active is None
         else ActiveChannelMessage(
-            vertebra=active.vertebra, side=active.side, channel=_mapping(plain(active.channel))
+            vertebra=active.vertebra, side=active.side, channel=mapping_of(plain(active.channel))
         ),
     )
 
@@ -272,10 +272,6 @@ def proposal_message(proposal: Proposal) -> SliceProposalMessage:
 
 def _used(plan: PlanDocument) -> dict[str, dict[str, dict[str, object]]]:
     return {
-        vertebra.name: {record.measured.side: _mapping(plain(record.used)) for record in vertebra.pedicles}
+        vertebra.name: {record.measured.side: mapping_of(plain(record.used)) for record in vertebra.pedicles}
         for vertebra in plan.vertebrae
     }
-
-
-def _mapping(value: object) -> dict[str, object]:
-    return dict(value) if isinstance(value, Mapping) else {}

@@ -164,6 +164,11 @@ def _reject_input(json_file: str, outputs: Iterable[Path], inputs: Iterable[Path
                     )
 
 
+def remark_text(remark: Remark) -> str:
+    """Return a remark in sentences, on one line."""
+    return f"{remark.message}. {remark.remedy}".rstrip()
+
+
 def problem_values(one: NavigationError | Remark) -> dict[str, str]:
     """Return the JSON fields of a problem or remark."""
     return {"code": one.code, "message": one.message, "remedy": one.remedy}

@@ -9,7 +9,7 @@ import typer
 
 from server.cli.markups_output import write_markups
 from server.cli.options import SettingOptions, config_from_options
-from server.cli.output import problem_values
+from server.cli.output import problem_values, remark_text
 from server.imaging.ct_reader import read_ct
 from server.slicer_file import channel_markup, screw_markup
 from tracker.errors import InvalidInput, PlanError, Remark
@@ -156,4 +156,4 @@ def _lines(measure: PedicleMeasure, screw: ScrewPlan | None, warnings: list[Rema
             f"{tolerance.max_angle_deg:.1f} deg, "
             f"or {tolerance.both_mm:.1f} mm with {tolerance.both_deg:.1f} deg",
         ]
-    return [*lines, *(f"Note: {one.message}. {one.remedy}".rstrip() for one in warnings)]
+    return [*lines, *(f"Note: {remark_text(one)}" for one in warnings)]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-from server.cli.output import write_atomically
+from server.cli.output import remark_text, write_atomically
 from server.imaging.ct_reader import read_ct
 from server.imaging.labels.label_file import label_file_bytes
 from server.imaging.labels.names import names_from_text
@@ -49,4 +49,4 @@ def check_labels(options: LabelOptions, *, as_json: bool) -> None:
         typer.echo(f"{one.level:<4}{one.volume_ml:6.1f} ml at ({x:.1f}, {y:.1f}, {z:.1f}) mm LPS{cut}")
     typer.echo(f"Contrast to the surroundings: {placed.contrast_hu:.0f} HU")
     for warning in placed.warnings:
-        typer.echo(f"Note: {warning.message}. {warning.remedy}".rstrip())
+        typer.echo(f"Note: {remark_text(warning)}")

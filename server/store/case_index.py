@@ -28,8 +28,8 @@ class CaseIndex:
     def __init__(self, database: CaseDatabase) -> None:
         self._database = database
         self._lock = threading.RLock()
-        # Number of changes, and the number at which case and documents were read.
-        self._changes = self._open_read_at = self._read_at = 0
+        # Number of commits, and the number at which case and documents were read.
+        self._commits, self._open_read_at, self._read_at = 0, -1, -1
         self._open: Case | None = None
         self._case_id = ""
         self._lineage = Lineage()
@@ -37,21 +37,20 @@ class CaseIndex:
         database.add_commit_listener(self._note_commit)
 
     def forget(self) -> None:
-        """Read everything again before the next answer.
+        """Read the documents again before the next answer.
 
         Call it after a withdrawal or deletion is committed, and before the listeners of the commit.
         """
         with self._lock:
-            self._changes += 1
             self._case_id, self._contents = "", {}
 
     def open_case(self) -> Case | None:
         """Return the open case; None if none is open."""
         with self._lock:
-            if self._open_read_at <= self._changes:
+            if self._open_read_at != self._commits:
                 with self._database.read_session() as session:
                     self._open = find_open_case(session)
-                self._open_read_at = self._changes + 1
+                self._open_read_at = self._commits
             return self._open
 
     def newest(self, case_id: str, kind: DocumentKind, name: str) -> Heading | None:
@@ -98,7 +97,7 @@ class CaseIndex:
         """Return the documents of a case, after reading those that are new."""
         if self._case_id != case_id:
             self._lineage, self._contents, self._case_id = Lineage(), {}, case_id
-        elif self._read_at > self._changes:
+        elif self._read_at == self._commits:
             return self._lineage
         try:
             with self._database.read_session() as session:
@@ -107,9 +106,9 @@ class CaseIndex:
         except BaseException:
             self._case_id = ""
             raise
-        self._read_at = self._changes + 1
+        self._read_at = self._commits
         return self._lineage
 
     def _note_commit(self) -> None:
         with self._lock:
-            self._changes += 1
+            self._commits += 1

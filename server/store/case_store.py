@@ -191,12 +191,12 @@ class CaseStore:
 
     def latest(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
         """Return the newest version; None if there is none or it is withdrawn. No older version is reused."""
-        heading = self.newest(case_id, kind, name)
+        heading = self.newest_heading(case_id, kind, name)
         if heading is None or heading.withdrawn is not None:
             return None
         return self._index.documents(case_id, [heading])[0]
 
-    def newest(self, case_id: str, kind: DocumentKind, name: str) -> Heading | None:
+    def newest_heading(self, case_id: str, kind: DocumentKind, name: str) -> Heading | None:
         """Return the heading of the newest version, also if it is withdrawn; None if there is none."""
         return self._index.newest(case_id, kind, name)
 

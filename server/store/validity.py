@@ -28,6 +28,7 @@ class Lineage:
 
     Attributes:
         headings: of all versions of all documents, by id.
+        last_row: row of the last of them.
     """
 
     def __init__(self) -> None:

@@ -13,6 +13,7 @@ from rich.table import Table
 
 from server.calibration import report_values
 from server.cli.calibration.images import Unusable
+from server.cli.output import remark_text
 from tracker.camera.calibration import CalibrationReport, ViewReport
 from tracker.camera.detection import BoardNotFound, BoardView
 
@@ -135,7 +136,7 @@ def _sentences(report: CalibrationReport, max_rms_px: float) -> list[str]:
             "Errors of neighbouring points are correlated; the standard deviations are therefore computed "
             "from the differences between views."
         )
-    return lines + [f"Warning: {one.message}. {one.remedy}" for one in report.warnings]
+    return lines + [f"Warning: {remark_text(one)}" for one in report.warnings]
 
 
 def _entry(entry: ImageEntry) -> dict[str, object]:

@@ -120,7 +120,7 @@ class PlanRepository:
             OutOfDateError: PLAN_OUT_OF_DATE.
         """
         ct = self._ct_provider.current()
-        newest = self._store.newest(ct.document.case_id, DocumentKind.PLAN, MAIN_PLAN)
+        newest = self._store.newest_heading(ct.document.case_id, DocumentKind.PLAN, MAIN_PLAN)
         if newest is None or newest.withdrawn is not None:
             return PlanDocument(), 0 if newest is None else newest.version, ct
         document = self._store.document(newest.case_id, newest.id)

@@ -273,7 +273,7 @@ class Procedure:
             record = registration_from_document(registration, reference=self._defaults.reference)
         except NavigationError as error:
             return _unusable(registration, error)
-        newest = self._store.newest(case_id, DocumentKind.CHECK, check_name(vertebra))
+        newest = self._store.newest_heading(case_id, DocumentKind.CHECK, check_name(vertebra))
         withdrawn = None if newest is None else newest.withdrawn
         if newest is not None and withdrawn is not None and registration.id in newest.depends_on:
             return Finding(
@@ -297,7 +297,7 @@ class Procedure:
 
         `missing` is the reason where there is none; its remedy also makes a new version of one out of date.
         """
-        newest = self._store.newest(case_id, kind, name)
+        newest = self._store.newest_heading(case_id, kind, name)
         if newest is None:
             return Finding(state=StepState.MISSING, reason=missing)
         validity = self._store.validity(newest)
