@@ -8,12 +8,15 @@ import structlog
 from server.camera_file import CameraFile, read_camera_file
 from server.config import Config
 from tracker.camera.calibration.coverage import MAX_FOCAL_SD_WARNING_RATIO, MAX_MIDDLE_SD_WARNING_RATIO
+from tracker.photometric import MAX_FOCAL_LENGTH_ERROR_RATIO, FocalLengthError
 
 log = structlog.get_logger(__name__)
 
 REMEDY = (
     "Calibrate the camera again with 10 to 20 sharp views of a flat board, up to the corners of the image."
 )
+
+FOCAL_LENGTH_REMEDY = "Check that the prints are flat and the lens as calibrated. Calibrate the camera again."
 
 
 def warn_of_doubtful_camera(file: CameraFile, *, title: str, max_rms_px: float) -> None:
@@ -35,6 +38,18 @@ def warn_of_configured_camera(config: Config) -> None:
         warn_of_doubtful_camera(
             read_camera_file(path), title=str(path), max_rms_px=config.calibration.max_rms_px
         )
+
+
+def warn_of_doubtful_focal_length(error: FocalLengthError) -> None:
+    """Log a warning if the perspective of the tracked markers contradicts the focal length of the camera."""
+    if error.is_doubtful:
+        side = "long" if error.ratio > 0.0 else "short"
+        message = (
+            f"the focal length of the camera file is {abs(error.ratio):.1%} too {side} for the perspective "
+            f"of the markers (sd {error.sd:.1%}, allowed {MAX_FOCAL_LENGTH_ERROR_RATIO:.0%}); "
+            "all depths are wrong by this share"
+        )
+        log.warning(message, code="CAMERA_DOUBTFUL", remedy=FOCAL_LENGTH_REMEDY)
 
 
 def doubts_of(file: CameraFile, *, max_rms_px: float) -> list[str]:

@@ -16,7 +16,7 @@ from tracker.geometry import Array, Camera, Marker, Rigid, Tool, Vertebra
 from tracker.marker import MarkerModel, photometric_fit_of
 from tracker.navigation.clearance import bone_distance_field
 from tracker.navigation.uncertainty import Drill, PedicleTolerance, UncertainPose, analyse_drill
-from tracker.photometric import refine_poses, textures_of
+from tracker.photometric import focal_length_error, refine_poses, textures_of
 from tracker.pipeline import Tracker
 from tracker.pipeline.warm_up_image import WarmUpImage, warm_up_image
 from tracker.plan import Channel, Surface
@@ -149,7 +149,7 @@ def _verify(model: MarkerModel, picture: WarmUpImage, half_shadowed: GreyImage) 
 
 
 def _fit(model: MarkerModel, picture: WarmUpImage, half_shadowed: GreyImage, camera: CameraModel) -> None:
-    """Refine a pose photometrically under spline illumination, with one corner occluded."""
+    """Measure the focal length; refine a pose under spline illumination, with one corner occluded."""
 
     def is_occluded(points_ratio: Array) -> npt.NDArray[np.bool_]:
         return np.asarray(points_ratio.min(axis=1) > OCCLUDED_FROM_RATIO)
@@ -160,13 +160,15 @@ def _fit(model: MarkerModel, picture: WarmUpImage, half_shadowed: GreyImage, cam
         rotation=np.diag([1.0, -1.0, -1.0]),
         translation_mm=np.array([*(beside_px * model.side_mm / picture.side_px), away_mm]),
     )
+    textures, side_px = textures_of(model.square), float(picture.side_px)
+    focal_length_error(picture.image, camera.lens, textures, pose, side_mm=model.side_mm, side_px=side_px)
     refine_poses(
         half_shadowed,
         camera.lens,
-        textures_of(model.square),
+        textures,
         [pose],
         side_mm=model.side_mm,
-        side_px=float(picture.side_px),
+        side_px=side_px,
         noise_grey=1.0,
         occluded_at=is_occluded,
     )

@@ -21,7 +21,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from server.camera_remarks import warn_of_configured_camera
+from server.camera_remarks import warn_of_configured_camera, warn_of_doubtful_focal_length
 from server.capture.address import SourceKind, source_from_text
 from server.capture.codecs import open_file
 from server.capture.shot import Shot, Source
@@ -37,6 +37,7 @@ from server.marker_remarks import reject_ambiguous_markers
 from server.setup import Preparation, build_setup
 from tracker.errors import InvalidInput
 from tracker.navigation import Setup
+from tracker.photometric import FocalLengthError
 from tracker.pipeline import Tracker
 from tracker.pose import Seen, Sighting, Unseen
 
@@ -101,6 +102,8 @@ def track_video(
     finally:
         source.close()
     typer.echo(summary.sentence(), err=True)
+    if (error := summary.focal_length_error) is not None:
+        warn_of_doubtful_focal_length(error)
     if source.defect is not None:
         typer.echo(f"Error: {source.defect.message}.\n{source.defect.remedy}", err=True)
         return BAD_INPUT
@@ -186,6 +189,12 @@ class _Summary:
             }
             for name, sighting in sightings.items()
         ]
+
+    @property
+    def focal_length_error(self) -> FocalLengthError | None:
+        """Return the error of the camera file by the markers; None if unknown, or without a camera file."""
+        is_calibrated = self._setup is not None and self._setup.camera_calibrated
+        return self._tracker.focal_length.error if self._tracker is not None and is_calibrated else None
 
     def sentence(self) -> str:
         """Return the summary: detections and misses per marker, and median times per stage."""

@@ -107,7 +107,11 @@ class Tracking:
         tracked_s = clock()
         motion = self._watching.take(setup, shot.image, sightings, at_s=shot.captured_at_s)
         self._note_controls(setup, controls or {})
-        motion = dataclasses.replace(motion, camera_changes=self._changes)
+        motion = dataclasses.replace(
+            motion,
+            camera_changes=self._changes,
+            focal_length_error=tracker.focal_length.error if setup.camera_calibrated else None,
+        )
         watched_s = clock()
         snapshot = navigate(
             setup=setup,
@@ -141,7 +145,9 @@ class Tracking:
             log.warning(error.message, code=error.code, remedy=error.remedy)
             self._camera_problem = Problem.from_error(error)
             setup = self._preparation.uncalibrated_setup_for(size_wh_px)
-        self._tracker = self._preparation.tracker_for(setup)
+        previous, self._tracker = self._tracker, self._preparation.tracker_for(setup)
+        if previous is not None:
+            self._tracker.focal_length.adopt(previous.focal_length)
         self._steadying, self._lagging = ToolSmoothing(self._preparation.smoothing), LagEstimator()
         channel = setup.channel
         self._guide = self._preparation.drill_reference_for(channel) if isinstance(channel, Channel) else None

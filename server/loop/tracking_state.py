@@ -21,6 +21,7 @@ from tracker.navigation import LagEstimator, MotionMonitor, ToolSmoothing
 from tracker.navigation.lag import TipSpeedEstimator
 from tracker.navigation.monitoring import PoseJumpDetector, ReferenceMonitor, SceneMonitor
 from tracker.pipeline import Tracker
+from tracker.pipeline.focal_length import FocalLengthMonitor
 from tracker.pipeline.idle_search import IdleSearch
 from tracker.pipeline.image import RepeatedPatch
 from tracker.pipeline.second_prints import SecondPrints
@@ -31,8 +32,11 @@ STATE: dict[type, frozenset[str]] = {
     Tracking: frozenset(
         {"_tracker", "_steadying", "_watching", "_lagging", "_watched_registration", "_changes"}
     ),
-    Tracker: frozenset({"_priors", "_patches", "_idle_search", "_second_prints", "_stepped_at_s"}),
+    Tracker: frozenset(
+        {"_priors", "_patches", "_idle_search", "_second_prints", "focal_length", "_stepped_at_s"}
+    ),
     IdleSearch: frozenset({"_image_number", "_costly_rounds", "_rejections"}),
+    FocalLengthMonitor: frozenset({"views", "_measured_at_s"}),
     SecondPrints: frozenset({"_image_number", "_twice", "_rejections", "_seen"}),
     ToolSmoothing: frozenset({"_tools"}),
 }
@@ -55,6 +59,7 @@ DERIVED: dict[type, frozenset[str]] = {
         }
     ),
     IdleSearch: frozenset({"_fitter", "_templates_of"}),
+    FocalLengthMonitor: frozenset({"camera", "models"}),
     SecondPrints: frozenset({"_fitter", "_templates_of"}),
     ToolSmoothing: frozenset({"_settings"}),
 }

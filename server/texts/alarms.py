@@ -14,6 +14,9 @@ from server.texts.phrases import PHRASES
 from server.texts.places import near_text, through_text
 from tracker.navigation.alarms import ALARM_RULES, Alarm, AlarmState, Condition, Kind, Measure, Presence, Site
 
+# Of figures with other digits than their unit: the 95 % error is compared with the room in a pedicle.
+DECIMALS = {Condition.POSE_UNCERTAIN: 2, Condition.SETUP_INSUFFICIENT: 2, Condition.FOCAL_LENGTH_DOUBTFUL: 1}
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlarmText:
@@ -109,8 +112,7 @@ def _remedy(alarm: Alarm, language: Language) -> str:
 
 
 def _fields(alarm: Alarm, language: Language, unix_offset_s: float) -> Mapping[str, str]:
-    # Decimals of the displayed figure: the 95 % error has two.
-    decimals = 2 if alarm.condition in (Condition.POSE_UNCERTAIN, Condition.SETUP_INSUFFICIENT) else None
+    decimals = DECIMALS.get(alarm.condition)
     peak = alarm.peak
     worst_site = None if peak is None else peak.site
     return {

@@ -148,6 +148,12 @@ ENGLISH: Mapping[Condition, Phrases] = {
         bare="The camera was changed since the calibration.",
         remedy="Stop. Set it back, or calibrate and register again.",
     ),
+    Condition.FOCAL_LENGTH_DOUBTFUL: Phrases(
+        title="FOCAL LENGTH DOUBTFUL",
+        present="The calibrated focal length and the view of the markers differ by {value}, limit {limit}.",
+        past="The calibrated focal length and the view of the markers differed by {worst}.",
+        remedy="Check that the prints are flat and the lens as calibrated. Calibrate the camera again.",
+    ),
     Condition.REGISTRATION_OUT_OF_DATE: Phrases(
         title="REGISTRATION OUT OF DATE",
         present="Data that the registration depends on have changed.",
@@ -308,6 +314,12 @@ GERMAN: Mapping[Condition, Phrases] = {
         past="{control} war anders als bei der Kalibrierung.",
         bare="Die Kamera wurde seit der Kalibrierung verstellt.",
         remedy="Anhalten. Zurückstellen, oder neu kalibrieren und registrieren.",
+    ),
+    Condition.FOCAL_LENGTH_DOUBTFUL: Phrases(
+        title="BRENNWEITE ZWEIFELHAFT",
+        present="Kalibrierte Brennweite und Ansicht der Marker weichen um {value} ab, Grenze {limit}.",
+        past="Kalibrierte Brennweite und Ansicht der Marker wichen um {worst} ab.",
+        remedy="Prüfen, ob Objektiv und Marker unverändert und die Marker eben sind. Kamera neu kalibrieren.",
     ),
     Condition.REGISTRATION_OUT_OF_DATE: Phrases(
         title="REGISTRIERUNG VERALTET",

@@ -25,6 +25,7 @@ from tracker.navigation.figures import DrillLimits
 from tracker.navigation.monitoring import NeverSeen, SceneState
 from tracker.navigation.placed_screw import PlacedScrew
 from tracker.navigation.uncertainty import DrillAnalysis
+from tracker.photometric import FocalLengthError
 from tracker.plan import Channel
 from tracker.plan.pedicle import Side
 from tracker.pose import Sighting, ToolModel
@@ -147,6 +148,7 @@ class MotionState:
         unseen_s: by marker, time since it was last seen; 0 if seen in this image.
         camera_changes: camera controls that differ from those at calibration, which invalidates it; the most
             severe first.
+        focal_length_error: of the calibrated camera, by the perspective of the markers; None if not known.
     """
 
     jumped: frozenset[str] = frozenset()
@@ -155,6 +157,7 @@ class MotionState:
     scene: SceneState = SceneState.UNSURE
     unseen_s: Mapping[str, float | NeverSeen] = field(default_factory=dict)
     camera_changes: tuple[ControlChange, ...] = ()
+    focal_length_error: FocalLengthError | None = None
 
 
 NO_MOTION = MotionState()

@@ -70,7 +70,7 @@ def weighted_row(rows, i, value, dark_contrast, response, reliability, unit, row
 
 
 @compiled
-def _weighted_rows(
+def weighted_rows(
     rows, at, values, dark_contrast, response, reliability, unit, begin, count, slopes, residuals, weights
 ):
     """Compute derivatives (16, many), residuals and weights under planar illumination; return the cost."""
@@ -112,7 +112,7 @@ def _planar_equations(rows, at, values, dark_contrast, parameters, reliability, 
     cost, total = 0.0, 0.0
     for begin in range(0, len(values), BATCH):
         count = min(BATCH, len(values) - begin)
-        cost += _weighted_rows(
+        cost += weighted_rows(
             rows,
             at,
             values,

@@ -142,8 +142,8 @@ def refine_poses(
             occluded_at=occluded_at,
         )
 
-    step = max(1, int(np.ceil(side_px / WIDEST_PX)))
-    focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
+    step = averaging_step(side_px)
+    focus = focus_blur_px2(step)
     before = _fit_in_previous_illumination(chosen, starts, focus, known)
     samples, done = before or _fit_from_scratch(chosen, starts, focus, noise_grey)
     if not done:
@@ -154,7 +154,7 @@ def refine_poses(
         samples, done = inside.samples, inside.fits
     scale = min(one.residual_sd_grey for one in done)
     costs = [robust_chi2_of(samples, one, scale) for one in done] if len(done) > 1 else [0.0]
-    is_wide = _wide(done[0].parameters, focus) is not None
+    is_wide = wide_blur_px2(done[0].parameters, focus) is not None
     common = (is_wide, occluded_at is not None, None if before is None else known)
     records = (_refined_pose(samples, one, cost, *common) for one, cost in zip(done, costs, strict=True))
     fits = [one for one in records if one is not None]
@@ -162,6 +162,16 @@ def refine_poses(
         return fits
     alternative = _pose_of(inside.alternative)
     return [replace(one, alternative=alternative, alternative_delta_chi2=inside.delta_chi2) for one in fits]
+
+
+def averaging_step(side_px: float) -> int:
+    """Return how many pixels are averaged along each axis."""
+    return max(1, int(np.ceil(side_px / WIDEST_PX)))
+
+
+def focus_blur_px2(step: int) -> Array:
+    """Return the blur (3,) of a camera in focus, with that of averaging."""
+    return np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
 
 
 def _fit_in_previous_illumination(
@@ -174,7 +184,7 @@ def _fit_in_previous_illumination(
     # A fitted illumination belongs to one pose and would favour it over the other.
     if known is None or len(starts) != 1:
         return None
-    wide = _wide(known.parameters, focus_px2)
+    wide = wide_blur_px2(known.parameters, focus_px2)
     samples = chosen(focus_px2 if wide is None else wide)
     one = fit_in_known_illumination(samples, starts[0].rotation, starts[0].translation_mm, known)
     return None if one is None else (samples, [one])
@@ -194,7 +204,7 @@ def _fit_from_scratch(
     if not near:
         return samples, []
     sharp = min(near, key=lambda one: one.residual_sd_grey)
-    if (blur := _wide(sharp.parameters, focus_px2)) is not None:
+    if (blur := wide_blur_px2(sharp.parameters, focus_px2)) is not None:
         samples = chosen(blur)
         few = subsample(samples, COARSE_PIXELS)
         near = refit_all(few, near)
@@ -216,7 +226,7 @@ def _fit_from_scratch(
     return samples, done
 
 
-def _wide(parameters: Array, focus_px2: Array) -> Array | None:
+def wide_blur_px2(parameters: Array, focus_px2: Array) -> Array | None:
     """Return the blur (3,) of a fit, in px^2, if it is wider than that of a camera in focus; else None."""
     blur = parameters[BLUR : BLUR + 3]
     return blur if float(blur[:2].sum()) > WIDE_BLUR_RATIO * float(focus_px2[:2].sum()) else None

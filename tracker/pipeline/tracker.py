@@ -19,6 +19,7 @@ from tracker.marker import (
 )
 from tracker.photometric import textures_of
 from tracker.pipeline.fitter import Fitter
+from tracker.pipeline.focal_length import FocalLengthMonitor
 from tracker.pipeline.idle_search import IdleSearch
 from tracker.pipeline.image import RepeatedPatch, grey_of, image_context_of
 from tracker.pipeline.search import Search
@@ -55,6 +56,7 @@ class Tracker:
     Attributes:
         stage_ms: duration of each stage of the last image, by name; empty without a clock.
         readout_s: the readout time from the constructor.
+        focal_length: error of the camera's focal length by the markers in the last images.
 
     The first tracker of a process loads the compiled kernels, so that no image is delayed by it.
 
@@ -102,6 +104,7 @@ class Tracker:
         self._fitter = Fitter(camera=camera, settings=self.settings, stages=self._stages)
         self._idle_search = IdleSearch(self._fitter, self._templates_for)
         self._second_prints = SecondPrints(self._fitter, self._templates_for)
+        self.focal_length = FocalLengthMonitor(camera, {model.name: model for model in self.models})
         self._stepped_at_s = -np.inf
         if self.models and not Tracker._has_loaded:
             Tracker._has_loaded = True
@@ -113,7 +116,10 @@ class Tracker:
         pixels, templates = image_context_of(image, self._textures), self._templates[[0]]
         # No image yet: do not call the caller's clock.
         fitter = Fitter(camera=self.camera, settings=self.settings, stages=StageTimer(None))
-        Search(pixels, self.models[:1], templates, fitter=fitter).run()
+        model = self.models[0]
+        found = Search(pixels, [model], templates, fitter=fitter).run()[model.name]
+        if isinstance(found, Seen):
+            self.focal_length.measure(pixels, model, found)
         for _ in candidate_rounds(image, templates):
             pass
 
@@ -173,6 +179,9 @@ class Tracker:
         seen = self._second_prints.withhold_duplicates(
             pixels, self.models, seen, captured_at_s, full_search=full_search
         )
+        new = {name: one for name, one in seen.items() if isinstance(one, Seen) and not again[name]}
+        self.focal_length.take(pixels, new, captured_at_s)
+        self._stages.end("judgement")
         self.stage_ms = self._stages.elapsed_ms
         return {model.name: self._stated(seen[model.name], is_predicted) for model in self.models}
 

@@ -10,6 +10,7 @@ from tracker.pose.occurrence import (
 )
 from tracker.pose.photometric_refinement import ImageContext
 from tracker.pose.planar import flipped_pose, pose_from_corners
+from tracker.pose.pose_ambiguity import DECIDED_COST
 from tracker.pose.predicted_video import with_prediction_error
 from tracker.pose.prior import Prior
 from tracker.pose.refinement import EdgeFit, fit_pose_to_edges
@@ -22,6 +23,7 @@ from tracker.pose.tool import ToolModel
 from tracker.pose.window import Window, window_around
 
 __all__ = [
+    "DECIDED_COST",
     "EdgeFit",
     "FoundBy",
     "ImageContext",

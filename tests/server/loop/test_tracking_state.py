@@ -41,7 +41,13 @@ def shot(number: int) -> Shot:
 def test_every_attribute_is_either_state_or_derived(tracking: Tracking) -> None:
     tracker = tracking._tracker
     assert isinstance(tracker, Tracker)
-    parts: list[object] = [tracking, tracker, tracker._idle_search, tracker._second_prints]
+    parts: list[object] = [
+        tracking,
+        tracker,
+        tracker._idle_search,
+        tracker._second_prints,
+        tracker.focal_length,
+    ]
     found = {type(one): one for one in [*parts, tracking._steadying]}
     assert found.keys() == STATE.keys() == DERIVED.keys() >= {IdleSearch, SecondPrints}
     for kind, one in found.items():

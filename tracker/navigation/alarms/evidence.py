@@ -11,6 +11,7 @@ from tracker.camera import CameraControl
 from tracker.navigation.alarms.inputs import AlarmInputs, NotKnown, Site
 from tracker.navigation.alarms.limits import AlarmLimits
 from tracker.navigation.alarms.rules import ALARM_RULES, Condition
+from tracker.photometric import MAX_FOCAL_LENGTH_ERROR_RATIO
 
 
 class Presence(StrEnum):
@@ -61,6 +62,9 @@ class Evidence:
 
 MAX_UNSEEN_WHILE_CLEARING_S = 0.25
 MIN_CLEAR_RATIO = 0.02
+
+# A doubtful focal length stays so until its error is this share of the limit.
+FOCAL_LENGTH_CLEAR_RATIO = 0.8
 
 UNKNOWN = Evidence(presence=Presence.UNKNOWN)
 GONE = Evidence(presence=Presence.NO)
@@ -198,6 +202,17 @@ def _camera_changed(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) -> E
     return Evidence(presence=Presence.YES, measure=measure, severity=severity, control=change.control)
 
 
+def _focal_length_doubtful(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) -> Evidence:
+    del limits
+    error = inputs.focal_length_error
+    if error is None:
+        return GONE
+    measure = Measure(value=100.0 * abs(error.ratio), limit=100.0 * MAX_FOCAL_LENGTH_ERROR_RATIO, unit="%")
+    stays = raised and measure.value > FOCAL_LENGTH_CLEAR_RATIO * measure.limit
+    shows = error.is_doubtful or stays
+    return Evidence(presence=_showing(shows), measure=measure, severity=measure.value)
+
+
 def _check_due(inputs: AlarmInputs, limits: AlarmLimits, raised: bool) -> Evidence:
     del raised
     age_s = inputs.check_age_s
@@ -248,6 +263,7 @@ _EVALUATORS: Mapping[Condition, Evaluator] = MappingProxyType(
         Condition.CAMERA_MOVED: lambda inputs, _limits, _raised: _flag(not inputs.camera_in_place),
         Condition.REFERENCE_MOVED: lambda inputs, _limits, _raised: _flag(not inputs.reference_in_place),
         Condition.CAMERA_CHANGED: _camera_changed,
+        Condition.FOCAL_LENGTH_DOUBTFUL: _focal_length_doubtful,
         Condition.REGISTRATION_OUT_OF_DATE: lambda inputs, _limits, _raised: _flag(
             not inputs.registration_current
         ),

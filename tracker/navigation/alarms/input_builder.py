@@ -101,6 +101,7 @@ def alarm_inputs(
         camera_in_place=AbsentReason.CAMERA_MOVED not in reasons,
         reference_in_place=AbsentReason.REFERENCE_MOVED not in reasons,
         camera_change=next(iter(snapshot.motion.camera_changes), None),
+        focal_length_error=snapshot.motion.focal_length_error,
     )
     return _with_figures(inputs, snapshot) if inputs.image_current else inputs
 

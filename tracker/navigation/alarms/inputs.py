@@ -6,6 +6,7 @@ from typing import TypeAlias
 from tracker.camera import ControlChange
 from tracker.navigation.clearance import WallSource
 from tracker.navigation.directions import Wall
+from tracker.photometric import FocalLengthError
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +67,7 @@ class AlarmInputs:
         camera_in_place: the camera did not move since the registration.
         reference_in_place: the reference did not move since the registration.
         camera_change: the camera control that invalidates the calibration; None if none does.
+        focal_length_error: of the camera by the perspective of the markers; None if not known.
         registration_current: the registration is up to date.
         calibration_current: the calibration is up to date.
         check_age_s: time since the last check on anatomy.
@@ -102,6 +104,7 @@ class AlarmInputs:
     camera_in_place: bool = True
     reference_in_place: bool = True
     camera_change: ControlChange | None = None
+    focal_length_error: FocalLengthError | None = None
     registration_current: bool = True
     calibration_current: bool = True
     check_age_s: Reading = NOT_KNOWN

@@ -55,6 +55,7 @@ class Condition(StrEnum):
     CAMERA_MOVED = "CAMERA_MOVED"  # since the registration
     REFERENCE_MOVED = "REFERENCE_MOVED"  # since the registration
     CAMERA_CHANGED = "CAMERA_CHANGED"  # focus or zoom, since the calibration in use
+    FOCAL_LENGTH_DOUBTFUL = "FOCAL_LENGTH_DOUBTFUL"  # the perspective of the markers contradicts it
     REGISTRATION_OUT_OF_DATE = "REGISTRATION_OUT_OF_DATE"
     CALIBRATION_OUT_OF_DATE = "CALIBRATION_OUT_OF_DATE"
     CHECK_DUE = "CHECK_DUE"  # the check on anatomy is older than its limit
@@ -150,6 +151,7 @@ ALARM_RULES: Mapping[Condition, AlarmRule] = MappingProxyType(
         Condition.CAMERA_MOVED: _technical(Priority.HIGH),
         Condition.REFERENCE_MOVED: _technical(Priority.HIGH),
         Condition.CAMERA_CHANGED: _technical(Priority.HIGH),
+        Condition.FOCAL_LENGTH_DOUBTFUL: _technical(Priority.MEDIUM),
         Condition.REGISTRATION_OUT_OF_DATE: _technical(Priority.HIGH),
         Condition.CALIBRATION_OUT_OF_DATE: _technical(Priority.HIGH),
         Condition.CHECK_DUE: _technical(Priority.LOW),

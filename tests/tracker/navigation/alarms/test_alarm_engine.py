@@ -16,6 +16,7 @@ from tracker.navigation.alarms import (
     Priority,
     Sound,
 )
+from tracker.photometric import FocalLengthError
 
 UNSEEN = {
     "clearance_mm": NOT_KNOWN,
@@ -244,6 +245,7 @@ ALARMING: dict[Condition, dict[str, object]] = {
     Condition.CAMERA_CHANGED: {
         "camera_change": ControlChange(control=CameraControl.FOCUS, calibrated=120, now=135)
     },
+    Condition.FOCAL_LENGTH_DOUBTFUL: {"focal_length_error": FocalLengthError(0.021, 0.003)},
     Condition.REGISTRATION_OUT_OF_DATE: {"registration_current": False},
     Condition.CALIBRATION_OUT_OF_DATE: {"calibration_current": False},
     Condition.CHECK_DUE: {"check_age_s": 1801.0},
@@ -292,6 +294,21 @@ def test_before_navigation_only_disk_recording_and_a_hold_are_heard(condition: C
     picture = stream.images(10.0, **ALARMING[condition], navigating=False)
     outside_navigation = {Condition.DISK_NEARLY_FULL, Condition.RECORDING_STOPPED, Condition.HOLD_REQUESTED}
     assert {alarm.condition for alarm in picture.alarms} == {condition} & outside_navigation
+
+
+@pytest.mark.parametrize(
+    ("error", "shows"),
+    [
+        pytest.param(FocalLengthError(-0.021, 0.003), True, id="too short"),
+        pytest.param(FocalLengthError(0.021, 0.006), False, id="may be chance"),
+        pytest.param(FocalLengthError(0.009, 0.001), False, id="too small to matter"),
+    ],
+)
+def test_a_focal_length_is_doubtful_where_its_error_is_large_and_no_chance(
+    error: FocalLengthError, shows: bool
+) -> None:
+    picture = Stream().images(1.0, focal_length_error=error)
+    assert [alarm.condition for alarm in picture.alarms] == [Condition.FOCAL_LENGTH_DOUBTFUL] * shows
 
 
 def test_an_empty_set_up_is_silent() -> None:
