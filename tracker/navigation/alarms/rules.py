@@ -151,7 +151,8 @@ ALARM_RULES: Mapping[Condition, AlarmRule] = MappingProxyType(
         Condition.CAMERA_MOVED: _technical(Priority.HIGH),
         Condition.REFERENCE_MOVED: _technical(Priority.HIGH),
         Condition.CAMERA_CHANGED: _technical(Priority.HIGH),
-        Condition.FOCAL_LENGTH_DOUBTFUL: _technical(Priority.MEDIUM),
+        # During set-up too, where the camera can still be calibrated again before anything depends on it.
+        Condition.FOCAL_LENGTH_DOUBTFUL: _technical(Priority.MEDIUM, outside_navigation=True),
         Condition.REGISTRATION_OUT_OF_DATE: _technical(Priority.HIGH),
         Condition.CALIBRATION_OUT_OF_DATE: _technical(Priority.HIGH),
         Condition.CHECK_DUE: _technical(Priority.LOW),

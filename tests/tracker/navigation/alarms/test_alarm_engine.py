@@ -289,10 +289,13 @@ def test_each_condition_is_raised_and_goes(condition: Condition) -> None:
 
 
 @pytest.mark.parametrize("condition", Condition)
-def test_before_navigation_only_disk_recording_and_a_hold_are_heard(condition: Condition) -> None:
+def test_before_navigation_only_focal_length_disk_recording_and_a_hold_are_heard(condition: Condition) -> None:
     stream = Stream(rate_hz=15.0)
     picture = stream.images(10.0, **ALARMING[condition], navigating=False)
-    outside_navigation = {Condition.DISK_NEARLY_FULL, Condition.RECORDING_STOPPED, Condition.HOLD_REQUESTED}
+    outside_navigation = {
+        *(Condition.FOCAL_LENGTH_DOUBTFUL, Condition.DISK_NEARLY_FULL),
+        *(Condition.RECORDING_STOPPED, Condition.HOLD_REQUESTED),
+    }
     assert {alarm.condition for alarm in picture.alarms} == {condition} & outside_navigation
 
 
