@@ -289,7 +289,7 @@ def test_each_condition_is_raised_and_goes(condition: Condition) -> None:
 
 
 @pytest.mark.parametrize("condition", Condition)
-def test_before_navigation_only_focal_length_disk_recording_and_a_hold_are_heard(condition: Condition) -> None:
+def test_before_navigation_few_alarms_are_heard(condition: Condition) -> None:
     stream = Stream(rate_hz=15.0)
     picture = stream.images(10.0, **ALARMING[condition], navigating=False)
     outside_navigation = {
