@@ -93,12 +93,6 @@ THEATRE_STATES = (
     State(name="theatre-verdict-entry", path="theatre", order="entry", ready=figure("entry", "over")),
     State(name="theatre-verdict-near", path="theatre", order="near", ready=figure("wall", "over")),
     State(name="theatre-verdict-breach", path="theatre", order="breach", ready=".alarms[data-priority=high]"),
-    State(
-        name="theatre-verdict-breach-german",
-        path="theatre?lang=de",
-        order="breach",
-        ready=".alarms[data-priority=high]",
-    ),
     State(name="theatre-verdict-hidden", path="theatre", order="hidden", ready="[data-testid=no-tracking]"),
     State(name="theatre-verdict-deep", path="theatre", order="deep", ready=figure("depth", "through")),
     State(
@@ -120,13 +114,6 @@ THEATRE_STATES = (
     State(name="theatre-unseen", path="theatre", order="unseen", ready="[data-testid=no-tracking]"),
     State(name="theatre-uncalibrated", path="theatre", order="bare", ready="[data-testid=no-tracking]"),
     State(name="theatre-camera-lost", path="theatre", order="lost", clicks=("alarms-more",), ready=ALERT),
-    State(
-        name="theatre-camera-lost-german",
-        path="theatre?lang=de",
-        order="lost",
-        clicks=("alarms-more",),
-        ready=ALERT,
-    ),
     State(
         name="supervisor-camera-lost", path="supervisor", order="lost", clicks=("alarms-more",), ready=ALERT
     ),
