@@ -109,6 +109,7 @@ THEATRE_STATES = (
         next_order="path",
         ready="[data-testid=headline-event]:not(:empty)",
     ),
+    State(name="theatre-stopped", path="theatre", order="stopped", ready="[data-testid=no-tracking]"),
     State(name="theatre-details", path="theatre", order="path", clicks=("more",), ready=LIVE_VIDEO),
     State(name="theatre-scene", path="theatre?", order="path", clicks=("tile-scene",), ready=LIVE_VIDEO),
     State(name="theatre-unseen", path="theatre", order="unseen", ready="[data-testid=no-tracking]"),
@@ -146,7 +147,7 @@ SUPERVISED_STATES = (
     State(name="supervised-supervisor", path="supervisor", person="s1", ready=LIVE_NUMBERS),
     *(
         State(
-            name=f"supervised-{fold}",
+            name=f"supervised-fold-{fold}",
             path=f"supervisor?{fold}",
             person="s1",
             clicks=(f"fold-{fold} summary",),

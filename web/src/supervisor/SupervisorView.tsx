@@ -151,7 +151,6 @@ function SignState({ signable }: { signable: Signable | null }): ReactNode {
     <span className="sign-state" data-state={signable.is_cosigned ? "done" : waits ? "waits" : "open"}>
       <span aria-hidden="true">{signable.is_cosigned ? "✓" : waits ? "▲" : "○"}</span>{" "}
       {signable.is_cosigned ? texts.done : texts.open}
-      {waits && ` · ${texts.required}`}
     </span>
   );
 }

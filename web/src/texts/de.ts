@@ -81,7 +81,7 @@ export const de: Texts = {
     "not-at-all": "Kein Patientenmarker: Bewegungen von Patient oder Kamera werden nicht erkannt.",
   },
   depthTexts: {
-    before: "vor dem Eintritt",
+    before: "vor Eintritt",
     inside: "hinter der Eintrittsebene",
     past: "GEPLANTES ENDE ÜBERSCHRITTEN",
     across: "Bohrer quer zum Kanal",

@@ -10,7 +10,7 @@ export const supervisorDe: SupervisorTexts = {
     numbers: "Werte",
     scene: "3-D",
     line: "Verbindung",
-    notShown: "nicht geöffnet",
+    notShown: "nicht offen",
     gone: "nicht live",
     good: "verbunden",
     lost: "getrennt, verbindet neu",
