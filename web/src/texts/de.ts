@@ -83,7 +83,7 @@ export const de: Texts = {
   depthTexts: {
     before: "vor Eintritt",
     inside: "hinter der Eintrittsebene",
-    past: "GEPLANTES ENDE ÜBERSCHRITTEN",
+    past: "ZU TIEF",
     across: "Bohrer quer zum Kanal",
   },
   scene: {
