@@ -95,6 +95,7 @@ export const supervisorDe: SupervisorTexts = {
     anybody:
       "Auf diesem Server meldet sich niemand an. Eine Unterschrift gilt deshalb nicht als die einer zweiten Person.",
     done: "gegengezeichnet",
+    due: "gegen\u00adzuzeichnen",
     open: "nicht gegengezeichnet",
   },
   audit: "Protokoll der Handlungen",
