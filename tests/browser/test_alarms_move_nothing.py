@@ -3,9 +3,10 @@
 from collections.abc import Callable
 
 import pytest
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Page, expect
 
 from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage
+from tests.browser.unconfirmed import answer_unconfirmed
 
 pytestmark = pytest.mark.browser
 
@@ -64,20 +65,6 @@ def moved(before: dict[str, dict[str, list[float]]], after: dict[str, dict[str, 
         if name in after[selector] or selector != BAND_BUTTONS
         if max(abs(one - other) for one, other in zip(box, after[selector][name], strict=True)) >= 1
     ]
-
-
-def answer_unconfirmed(route: Route) -> None:
-    """Answer the state of the procedure as after a restart."""
-    told = route.fetch().json()
-    told["confirmation"] = {
-        "because": "server_started",
-        "registration_id": "r1",
-        "vertebra": "L3",
-        "registered_at": "2026-05-01T10:00:00Z",
-        "registered_by": "ito",
-        "reference": None,
-    }
-    route.fulfill(json=told)
 
 
 def alarms(page: Page, state: str) -> None:

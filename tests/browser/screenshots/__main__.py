@@ -21,6 +21,7 @@ from tests.browser.screenshots.contact_sheet import Picture, contact_sheet
 from tests.browser.screenshots.page_faults import page_faults
 from tests.browser.screenshots.states import STAGES, Stage, State, click
 from tests.browser.theatre import WatchedPage
+from tests.browser.unconfirmed import answer_unconfirmed
 from tests.conftest import FLAGS, chromium_path
 
 SIZES = ("1920x1080", "1366x768", "1180x820", "390x844")
@@ -96,6 +97,8 @@ class Photographer:
         )
         context.set_default_timeout(PATIENCE_MS)
         context.add_init_script(f"localStorage.setItem('coaxial.theme', {json.dumps(self._theme)})")
+        if state.is_unconfirmed:
+            context.route("**/api/procedure", answer_unconfirmed)
         if state.person:
             context.add_cookies([{"name": "person", "value": state.person, "url": address}])
             context.route("**/api/navigation/ct", answer_ct)

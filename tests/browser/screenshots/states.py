@@ -33,6 +33,7 @@ class State:
         ready: CSS selector of what is visible then, and is brought into sight.
         person: Who is signed in, on a server with users.
         clicks: Test ids of what is clicked, in order.
+        is_unconfirmed: Whether the procedure waits for a confirmation after a restart.
         has_real_limits: Whether the page keeps the server's age limits, so that numbers become old.
     """
 
@@ -44,6 +45,7 @@ class State:
     next_order: str = ""
     person: str = ""
     clicks: Sequence[str] = ()
+    is_unconfirmed: bool = False
     has_real_limits: bool = False
 
 
@@ -109,7 +111,20 @@ THEATRE_STATES = (
         next_order="path",
         ready="[data-testid=headline-event]:not(:empty)",
     ),
-    State(name="theatre-stopped", path="theatre", order="stopped", ready="[data-testid=no-tracking]"),
+    *(
+        State(
+            name=f"{view}-stopped",
+            path=path,
+            order="stopped",
+            ready=".restart",
+            is_unconfirmed=True,
+        )
+        for view, path in (
+            ("theatre", "theatre"),
+            ("theatre-figures", "theatre?layout=figures"),
+            ("operator", "operator/navigate"),
+        )
+    ),
     State(name="theatre-details", path="theatre", order="path", clicks=("more",), ready=LIVE_VIDEO),
     State(name="theatre-scene", path="theatre?", order="path", clicks=("tile-scene",), ready=LIVE_VIDEO),
     State(name="theatre-unseen", path="theatre", order="unseen", ready="[data-testid=no-tracking]"),
