@@ -13,7 +13,7 @@ export const supervisorDe: SupervisorTexts = {
     notShown: "nicht offen",
     gone: "nicht live",
     good: "verbunden",
-    lost: "getrennt, verbindet neu",
+    lost: "verbindet neu",
   },
   hold: {
     title: "Anhalten",

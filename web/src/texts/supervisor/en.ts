@@ -11,7 +11,7 @@ export const supervisorEn = {
     notShown: "not opened",
     gone: "not live",
     good: "connected",
-    lost: "lost, reconnecting",
+    lost: "reconnecting",
   },
   hold: {
     title: "Hold",
