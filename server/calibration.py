@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from fractions import Fraction
 
 import numpy as np
 
@@ -10,8 +11,11 @@ from tracker.camera.calibration import CalibrationReport, ViewReport
 from tracker.plan.document import plain
 
 ROW_COLUMNS = ("x1_mm", "y1_mm", "x2_mm", "y2_mm", "u1_px", "v1_px", "u2_px", "v2_px")
-# The longest usual arrow, as a part of the image's width.
+# The longest usual arrow, and the longest of the scale, as parts of the image's width.
 ARROW_RATIO = 0.03
+MAX_SCALE_RATIO = 0.1
+# Lengths of the scale in pixels; fractions are written alike in all languages.
+SCALES_PX = [*(Fraction(1, parts) for parts in (50, 20, 10, 5, 2)), *map(Fraction, (1, 2, 5, 10, 20, 50))]
 GRID = (8, 6)
 INK, DOT, CELL = "#1d2430", "#c2410c", "#93c5fd"
 
@@ -103,13 +107,15 @@ def accuracy_rows(report: AccuracyReport) -> list[list[float]]:
 
 
 def residuals_svg(report: CalibrationReport) -> str:
-    """Plot the residual of each point as a magnified arrow from the projected to the detected point."""
+    """Plot the residual of each point as a magnified arrow from the projected to the detected point.
+
+    A scale shows the magnification. There are no words: the plot is stored, and read in all languages.
+    """
     used = [view for view in report.views if view.used]
     lengths = np.concatenate([np.linalg.norm(view.residuals_px, axis=1) for view in used])
     usual = max(float(np.percentile(lengths, 95)), 1e-6)
     width = report.camera.size_wh_px[0]
     scale = ARROW_RATIO * width / usual
-    title = f"Residuals, {scale:.0f} times enlarged: RMS {report.rms_px:.3f} px in {len(used)} views"
 
     def arrows() -> Iterator[str]:
         for view in used:
@@ -118,11 +124,25 @@ def residuals_svg(report: CalibrationReport) -> str:
                 yield f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.5"/>'
 
     body = f'<g stroke="{DOT}" stroke-width="{width / 900:.2f}" fill="{INK}">{"".join(arrows())}</g>'
-    return _page(report, title, body)
+    return _page(report, _scale(report, scale) + body)
+
+
+def _scale(report: CalibrationReport, scale: float) -> str:
+    """Arrow of a round length above the image, with its length; nothing if none is short enough."""
+    width, height = report.camera.size_wh_px
+    fitting = [length for length in SCALES_PX if length * scale <= MAX_SCALE_RATIO * width]
+    if not fitting:
+        return ""
+    length, letter = float(fitting[-1]) * scale, height / 30
+    return (
+        f'<path d="M0 {-letter:.1f}h{length:.1f}" stroke="{DOT}" stroke-width="{width / 450:.2f}"/>'
+        f'<text x="{length + letter / 2:.1f}" y="{-0.6 * letter:.1f}" font-family="sans-serif" '
+        f'font-size="{letter:.1f}">{fitting[-1]} px</text>'
+    )
 
 
 def coverage_svg(report: CalibrationReport) -> str:
-    """Plot all points, and the cells of the image that contain any."""
+    """Plot all points, and the cells of the image that contain any; without words."""
     used = [view for view in report.views if view.used]
     points = np.concatenate([view.image_points_px for view in used])
     size = np.array(report.camera.size_wh_px, dtype=np.float64)
@@ -133,19 +153,17 @@ def coverage_svg(report: CalibrationReport) -> str:
         for x, y in cells
     )
     dots = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{size[0] / 400:.1f}"/>' for x, y in points)
-    share = 100 * report.coverage.cells_ratio
     body = f'<g fill="{CELL}" fill-opacity="0.5">{filled}</g><g fill="{DOT}">{dots}</g>'
-    return _page(report, f"Coverage: points in {share:.0f} % of the cells, {len(used)} views", body)
+    return _page(report, body)
 
 
-def _page(report: CalibrationReport, title: str, body: str) -> str:
+def _page(report: CalibrationReport, body: str) -> str:
     width, height = report.camera.size_wh_px
-    letter = height / 30
-    top, whole = -2 * letter, height + 2 * letter
+    margin = height / 15
+    whole = height + margin
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 {top:.1f} {width} {whole:.1f}">'
-        f'<rect y="{top:.1f}" width="{width}" height="{whole:.1f}" fill="white"/>'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 {-margin:.1f} {width} {whole:.1f}">'
+        f'<rect y="{-margin:.1f}" width="{width}" height="{whole:.1f}" fill="white"/>'
         f'<rect width="{width}" height="{height}" fill="none" stroke="{INK}"/>{body}'
-        f'<text y="{-0.6 * letter:.1f}" font-family="sans-serif" font-size="{letter:.1f}">{title}</text>'
         "</svg>\n"
     )

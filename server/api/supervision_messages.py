@@ -304,7 +304,7 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
         what=signable.what,
         requirement=signable.requirement,
         document_id=signable.document_id or None,
-        title=signable.title,
+        title=signable.title[requested_language()],
         made_by=signable.made_by,
         made_at=signable.made_at,
         imported=imported_message(signable.imported, claimed_maker=signable.claimed_maker),

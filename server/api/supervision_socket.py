@@ -1,4 +1,4 @@
-"""`WS /ws/room?view=theatre|operator|supervisor`: people, pointers, drawings and signatures.
+"""`WS /ws/room?view=theatre|operator|supervisor&lang=en|de`: people, pointers, drawings and signatures.
 
 The client sends `{"next": true}` and receives one `RoomMessage` as JSON text: at once after a change,
 otherwise after a second as a heartbeat. One message is in flight at a time; changes are combined, and
@@ -28,6 +28,7 @@ from server.supervision.marks import Moment
 from server.supervision.room import RoomFull
 from server.supervision.room_hub import HEARTBEAT_S, MIN_INTERVAL_S, RoomSubscription
 from server.supervision.room_updates import SentState
+from server.texts import set_requested_language
 
 _log = structlog.get_logger(__name__)
 
@@ -39,6 +40,9 @@ async def serve_room(websocket: WebSocket, *, room_hub: RoomHub, viewers: Viewer
     if requested_view not in set(View):
         await websocket.close(REJECTED, f"view must be one of {', '.join(View)}")
         return
+    # A browser sends the languages that it prefers; its page may be in another one.
+    stated = websocket.query_params.get("lang") or websocket.headers.get("accept-language", "")
+    set_requested_language(stated)
     person = person_of(websocket.scope)
     try:
         with (

@@ -73,7 +73,7 @@ class Signable:
     what: CosignTarget
     requirement: Requirement
     document_id: str = ""
-    title: str = ""
+    title: Text = field(default_factory=lambda: NO_TEXT)
     made_by: str = ""
     made_at: str = ""
     claimed_maker: str = ""
@@ -248,7 +248,7 @@ class SignatureService:
             what=what,
             requirement=requirement,
             document_id=document.id,
-            title=document.title,
+            title=document.title_text,
             made_by=document.maker,
             made_at=document.made_at,
             claimed_maker=document.made_by,

@@ -290,7 +290,7 @@ DETAILS: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.TOO_DEEP: "Anhalten. Bohrer zurückziehen.",
         Verdict.UNCERTAIN: "95-%-Fehler, Grenze {error_limit}",
         Verdict.BREACH_LIKELY: "innerhalb von 2 mm, Grenze {risk_limit}",
-        Verdict.SETUP_INSUFFICIENT: "95-%-Fehler, mit dieser Registrierung und diesem Werkzeug bestenfalls "
+        Verdict.SETUP_INSUFFICIENT: "95-%-Fehler, mit Registrierung und Werkzeug bestenfalls "
         "{min_error_mm}, Grenze {error_limit}",
         Verdict.NEAR_WALL: "Grenze {wall_limit}{move}",
         Verdict.CORRECT_ENTRY: "Eintritt {entry_mm}, Grenze {entry_limit}",

@@ -55,7 +55,7 @@ STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
         AbsentReason.POSE_JUMPED: State("LAGE NICHT EINDEUTIG", "den Bohrer kurz ruhig halten"),
         AbsentReason.NOT_CHECKED: State("NICHT GEPRÜFT", "zum Prüfen eine Landmarke berühren"),
         AbsentReason.NOT_CONFIRMED: State(
-            "NAVIGATION ANGEHALTEN", "neu gestartet: der Bediener muss bestätigen"
+            "NAVIGATION ANGEHALTEN", "neu gestartet: die Bedienung muss bestätigen"
         ),
         AbsentReason.NOT_COSIGNED: State(
             "NICHT GEGENGEZEICHNET", "eine zweite Person muss Plan und Registrierung unterschreiben"

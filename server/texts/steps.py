@@ -48,10 +48,10 @@ STEPS: Mapping[str, Text] = {
     "navigate": {"en": "navigation", "de": "Navigation"},
 }
 METHODS: Mapping[str, Text] = {
-    "points": {"en": "points", "de": "Landmarken"},
+    "points": {"en": "landmarks", "de": "Landmarken"},
     "needles": {"en": "needles", "de": "Nadeln"},
-    "surface": {"en": "surface", "de": "Abfahren der Oberfläche"},
-    "rehearsal": {"en": "rehearsal", "de": "Probebetrieb"},
+    "surface": {"en": "a surface sweep", "de": "Abfahren der Oberfläche"},
+    "rehearsal": {"en": "the rehearsal", "de": "Probebetrieb"},
 }
 
 REASONS: Mapping[str, Sentence] = {
@@ -276,7 +276,7 @@ KINDS: Mapping[str, Text] = {
     "tool": {"en": "tool", "de": "Instrument"},
     "ct": {"en": "ct", "de": "CT"},
     "labels": {"en": "labels", "de": "Wirbel-Labels"},
-    "surface": {"en": "surface", "de": "Oberfläche"},
+    "surface": {"en": "a surface sweep", "de": "Oberfläche"},
     "plan": {"en": "plan", "de": "Planung"},
     "registration": {"en": "registration", "de": "Registrierung"},
     "check": {"en": "check", "de": "Prüfung"},

@@ -8,6 +8,7 @@ bare      images of a camera that is not calibrated
 deep      the tip is past the planned end, which is an alarm
 path, entry, near, breach   a drill in a bone: on path, off at its entry, near a wall, through it
 hidden    the same drill is not seen
+stopped   figures are withheld until somebody confirms that nothing has moved
 wander    the same drill moves through all of these, back and forth
 stop      nothing is published any more, the server keeps running
 anew      the server ends; one without memory starts on another port, with instants as in live
@@ -44,7 +45,7 @@ from tests.server.texts.drilled_rod import UNSEEN, concluded, seen_at, setup_of
 from tests.tracker.navigation.assessed import drill_reference
 from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
-from tracker.navigation import NavigationSnapshot, Setup, min_errors_95_mm, navigate
+from tracker.navigation import AbsentReason, NavigationSnapshot, Setup, min_errors_95_mm, navigate
 from tracker.plan import Channel
 from tracker.registration import Registration
 
@@ -61,7 +62,7 @@ PLACES_IN_BONE = {
     "near": (29.0, 2.4, 0.0, 0.0, 0.0, 1.0),
     "breach": (29.0, 3.75, 0.0, 0.0, 0.0, 1.0),
 }
-IN_BONE = {*PLACES_IN_BONE, "hidden", "wander", "insufficient"}
+IN_BONE = {*PLACES_IN_BONE, "hidden", "stopped", "wander", "insufficient"}
 UNPLUGGED = Problem(
     code="CAMERA_LOST",
     message="the camera has given no image for 2.0 s, allowed 1.0 s",
@@ -151,6 +152,8 @@ def snapshot_in_bone(mode: str, number: int, now_s: float) -> NavigationSnapshot
     else:
         where = np.array(PLACES_IN_BONE.get(mode, PLACES_IN_BONE["path"]))
     stands = setup_in_bone(suffices=mode != "insufficient")
+    if mode == "stopped":
+        stands = replace(stands, withheld=AbsentReason.NOT_CONFIRMED)
     sighting = UNSEEN if mode == "hidden" else seen_at(where, stands.tools["drill"])
     return concluded(stands, drill_reference(), {"drill": sighting}, number=number, captured_at_s=now_s)
 

@@ -1,4 +1,4 @@
-"""Alarms come and go without moving anything on the page, at every size that is in use."""
+"""Alarms, and the question after a restart, move nothing on the page, at every size that is in use."""
 
 from collections.abc import Callable
 
@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.theatre import PATIENCE_MS, Theatre, WatchedPage
+from tests.browser.unconfirmed import answer_unconfirmed
 
 pytestmark = pytest.mark.browser
 
@@ -72,7 +73,9 @@ def alarms(page: Page, state: str) -> None:
 
 @pytest.mark.parametrize("view", MAIN)
 def test_alarms_move_nothing(theatre: Theatre, watch: Watch, view: str) -> None:
-    page = watch(theatre, *SIZES[0], strict=False).open(view)
+    watched = watch(theatre, *SIZES[0], strict=False)
+    watched.page.route("**/api/procedure", answer_unconfirmed)
+    page = watched.open(view)
     theatre.tell("path")
     expect(page.locator("[data-reading=wall][data-status=within]")).to_be_visible()
     expect(page.get_by_test_id("cut-probe")).to_have_attribute("data-shows", "bare")
@@ -112,6 +115,11 @@ def test_alarms_move_nothing(theatre: Theatre, watch: Watch, view: str) -> None:
     theatre.tell("insufficient")
     expect(page.locator("[data-verdict=setup_insufficient]")).to_be_visible()
     look("set-up insufficient")
+    theatre.tell("stopped")
+    expect(page.locator("[data-testid=no-tracking]")).to_be_visible()
+    if view != "supervisor":
+        expect(page.get_by_role("button", name="Confirm and continue with L3")).to_be_visible()
+    look("navigation stopped")
     theatre.tell("lost")
     expect(page.get_by_test_id("no-tracking")).to_be_visible()
     look("camera lost")

@@ -21,6 +21,7 @@ from tests.browser.screenshots.states import (
     theatre_stage,
 )
 from tests.browser.theatre import PATIENCE_MS, WatchedPage
+from tests.browser.unconfirmed import answer_unconfirmed
 
 pytestmark = pytest.mark.browser
 expect.set_options(timeout=PATIENCE_MS)
@@ -105,6 +106,8 @@ def test_no_state_of_a_german_page_has_a_decimal_point(
     with make() as stage:
         for state in states:
             with german(browser, stage, state.person) as context:
+                if state.is_unconfirmed:
+                    context.route("**/api/procedure", answer_unconfirmed)
                 texts = read(context.new_page(), stage, state)
             found += [(state.name, text) for text in with_points(texts)]
             commas += sum(bool(DECIMAL_COMMA.search(text)) for text in texts)

@@ -134,8 +134,9 @@ def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page
     reported: Any = asks(address).json()
     assert not reported["may_navigate"]
     plan = sato.get_by_test_id("fold-plan")
-    expect(plan).to_contain_text("required before navigation")
+    expect(plan.locator("summary")).to_contain_text("to be co-signed")
     plan.locator("summary").click()
+    expect(plan).to_contain_text("required before navigation")
     expect(plan).to_contain_text("plan 'main' version 1")
     sato.get_by_test_id("cosign-plan").click()
     assert not asks(address).json()["may_navigate"], "a slip has signed"

@@ -26,7 +26,7 @@ WITNESS = """() => {
         window.witnessed.looks += 1;
         const verdict = document.querySelector('[data-testid="verdict"]')?.dataset.verdict;
         window.witnessed.verdicts[verdict] = (window.witnessed.verdicts[verdict] ?? 0) + 1;
-        const through = /THROUGH MEDIAL WALL ([\\d.]+) mm/.exec(headline)?.[1];
+        const through = /THROUGH MEDIAL WALL ([\\d.]+)\\smm/.exec(headline)?.[1];
         if (headline !== "" && wall !== "\u2014") {
             if (through !== undefined && wall !== `-${through}`) note("headline");
             if (through === undefined && /^-\\d/.test(wall)) note("figure");

@@ -260,6 +260,10 @@ def test_the_room_is_informed_of_a_signature_at_once(guarded: Callable[..., Serv
         signed = heard(lambda plan: plan["is_cosigned"])
         assert signed == signable(server, "plan")
         assert [(one["by"], one["is_yours"]) for one in signed["signatures"]] == [("Dr Sato", False)]
+    german = "ws://127.0.0.1:8000/ws/room?view=supervisor&person=s2&lang=de"
+    with server.door.websocket_connect(german) as socket:
+        socket.send_json({"next": True})
+        assert socket.receive_json()["signable"][0]["title"] == "Planung „main“ Version 1"
 
 
 def test_only_navigation_waits_for_a_signature() -> None:

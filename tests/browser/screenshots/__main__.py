@@ -1,4 +1,4 @@
-"""Takes a screenshot of every view in its states, sizes and themes, and prints the faults that it finds.
+"""Takes a screenshot of every view in its states, sizes, themes and languages, and prints their faults.
 
     PYTHONPATH=. python -m tests.browser.screenshots --to FOLDER [--only NAME] [--sizes 1920x1080 ...]
 
@@ -9,7 +9,7 @@ import argparse
 import json
 import sys
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from urllib.request import urlopen
 
@@ -21,10 +21,12 @@ from tests.browser.screenshots.contact_sheet import Picture, contact_sheet
 from tests.browser.screenshots.page_faults import page_faults
 from tests.browser.screenshots.states import STAGES, Stage, State, click
 from tests.browser.theatre import WatchedPage
+from tests.browser.unconfirmed import answer_unconfirmed
 from tests.conftest import FLAGS, chromium_path
 
-SIZES = ("1920x1080", "1180x820", "390x844")
+SIZES = ("1920x1080", "1366x768", "1180x820", "390x844")
 THEMES = ("dark", "light")
+LOCALES: Mapping[str, str] = {"en": "en-GB", "de": "de-DE"}
 PATIENCE_MS = 60_000
 # Long enough that a busy machine's late images stay on the page.
 OLD_MS = 600_000
@@ -39,12 +41,13 @@ SETTLED = """() => new Promise(resolve => {
 
 
 class Photographer:
-    """Takes the screenshots of one server in one theme."""
+    """Takes the screenshots of one server in one theme and language."""
 
-    def __init__(self, browser: Browser, stage: Stage, theme: str, folder: Path) -> None:
+    def __init__(self, browser: Browser, stage: Stage, theme: str, language: str, folder: Path) -> None:
         self._browser = browser
         self._stage = stage
         self._theme = theme
+        self._language = language
         self._folder = folder
 
     def take(self, state: State, sizes: Sequence[str]) -> list[Picture]:
@@ -77,22 +80,25 @@ class Photographer:
         page.set_viewport_size(size_of(size))
         page.locator(state.ready).first.evaluate_all(IN_SIGHT)
         page.evaluate(SETTLED)
-        file = f"{state.name}-{size}-{self._theme}.png"
+        variant = f"{size} {self._theme} {self._language}"
+        file = f"{state.name} {variant}.png".replace(" ", "-")
         page.screenshot(path=self._folder / file, animations="disabled")
         logged = [f"console: {one}" for one in watched.complaints]
         watched.complaints.clear()
         faults = [*problems, *page_faults(page), *logged]
-        return Picture(file=file, variant=f"{size} {self._theme}", faults=faults)
+        return Picture(file=file, variant=variant, faults=faults)
 
     def _context(self, state: State) -> BrowserContext:
         address = f"http://127.0.0.1:{self._stage.port}"
         context = self._browser.new_context(
             viewport=size_of(SIZES[0]),
-            locale="en-GB",
+            locale=LOCALES[self._language],
             color_scheme="light" if self._theme == "light" else "dark",
         )
         context.set_default_timeout(PATIENCE_MS)
         context.add_init_script(f"localStorage.setItem('coaxial.theme', {json.dumps(self._theme)})")
+        if state.is_unconfirmed:
+            context.route("**/api/procedure", answer_unconfirmed)
         if state.person:
             context.add_cookies([{"name": "person", "value": state.person, "url": address}])
             context.route("**/api/navigation/ct", answer_ct)
@@ -110,6 +116,17 @@ def size_of(text: str) -> ViewportSize:
     return {"width": width, "height": height}
 
 
+def print_faults(name: str, pictures: Sequence[Picture]) -> None:
+    """Print each fault of a state once, with the variants that have it."""
+    variants: dict[str, list[str]] = defaultdict(list)
+    for picture in pictures:
+        for fault in picture.faults:
+            variants[fault].append(picture.variant)
+    for fault, where in variants.items():
+        sys.stdout.write(f"{name}: {fault} ({', '.join(where)})\n")
+    sys.stdout.flush()
+
+
 def main() -> None:
     """Take the screenshots, print the faults."""
     parser = argparse.ArgumentParser(description="Screenshots of every view, and their faults.")
@@ -117,9 +134,10 @@ def main() -> None:
     parser.add_argument("--only", default="", help="states whose name contains this")
     parser.add_argument("--sizes", nargs="+", default=SIZES, help="such as 1920x1080")
     parser.add_argument("--themes", nargs="+", default=THEMES, choices=THEMES)
+    parser.add_argument("--languages", nargs="+", default=tuple(LOCALES), choices=LOCALES)
     asked = parser.parse_args()
     asked.to.mkdir(parents=True, exist_ok=True)
-    pictures: dict[str, list[Picture]] = defaultdict(list)
+    pictures: dict[str, Sequence[Picture]] = {}
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium_path(), headless=True, args=list(FLAGS))
         for make, states in STAGES.values():
@@ -127,19 +145,17 @@ def main() -> None:
             if not wanted:
                 continue
             with make() as stage:
-                for theme in asked.themes:
-                    photographer = Photographer(browser, stage, theme, asked.to)
-                    for state in wanted:
-                        pictures[state.name] += photographer.take(state, asked.sizes)
+                photographers = [
+                    Photographer(browser, stage, theme, language, asked.to)
+                    for theme in asked.themes
+                    for language in asked.languages
+                ]
+                for state in wanted:
+                    shown = [one for each in photographers for one in each.take(state, asked.sizes)]
+                    print_faults(state.name, shown)
+                    pictures[state.name] = shown
         browser.close()
     (asked.to / "index.html").write_text(contact_sheet(pictures), encoding="utf-8")
-    for name, shown in pictures.items():
-        variants: dict[str, list[str]] = defaultdict(list)
-        for picture in shown:
-            for fault in picture.faults:
-                variants[fault].append(picture.variant)
-        for fault, where in variants.items():
-            sys.stdout.write(f"{name}: {fault} ({', '.join(where)})\n")
     sys.stdout.write(f"{sum(map(len, pictures.values()))} screenshots in {asked.to}/index.html\n")
 
 

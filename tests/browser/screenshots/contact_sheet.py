@@ -19,7 +19,7 @@ class Picture:
 
     Attributes:
         file: Name of its file.
-        variant: Size and theme.
+        variant: Size, theme and language.
         faults: What was found in the page.
     """
 

@@ -33,6 +33,7 @@ class State:
         ready: CSS selector of what is visible then, and is brought into sight.
         person: Who is signed in, on a server with users.
         clicks: Test ids of what is clicked, in order.
+        is_unconfirmed: Whether the procedure waits for a confirmation after a restart.
         has_real_limits: Whether the page keeps the server's age limits, so that numbers become old.
     """
 
@@ -44,6 +45,7 @@ class State:
     next_order: str = ""
     person: str = ""
     clicks: Sequence[str] = ()
+    is_unconfirmed: bool = False
     has_real_limits: bool = False
 
 
@@ -93,12 +95,6 @@ THEATRE_STATES = (
     State(name="theatre-verdict-entry", path="theatre", order="entry", ready=figure("entry", "over")),
     State(name="theatre-verdict-near", path="theatre", order="near", ready=figure("wall", "over")),
     State(name="theatre-verdict-breach", path="theatre", order="breach", ready=".alarms[data-priority=high]"),
-    State(
-        name="theatre-verdict-breach-german",
-        path="theatre?lang=de",
-        order="breach",
-        ready=".alarms[data-priority=high]",
-    ),
     State(name="theatre-verdict-hidden", path="theatre", order="hidden", ready="[data-testid=no-tracking]"),
     State(name="theatre-verdict-deep", path="theatre", order="deep", ready=figure("depth", "through")),
     State(
@@ -115,18 +111,25 @@ THEATRE_STATES = (
         next_order="path",
         ready="[data-testid=headline-event]:not(:empty)",
     ),
+    *(
+        State(
+            name=f"{view}-stopped",
+            path=path,
+            order="stopped",
+            ready=".restart",
+            is_unconfirmed=True,
+        )
+        for view, path in (
+            ("theatre", "theatre"),
+            ("theatre-figures", "theatre?layout=figures"),
+            ("operator", "operator/navigate"),
+        )
+    ),
     State(name="theatre-details", path="theatre", order="path", clicks=("more",), ready=LIVE_VIDEO),
     State(name="theatre-scene", path="theatre?", order="path", clicks=("tile-scene",), ready=LIVE_VIDEO),
     State(name="theatre-unseen", path="theatre", order="unseen", ready="[data-testid=no-tracking]"),
     State(name="theatre-uncalibrated", path="theatre", order="bare", ready="[data-testid=no-tracking]"),
     State(name="theatre-camera-lost", path="theatre", order="lost", clicks=("alarms-more",), ready=ALERT),
-    State(
-        name="theatre-camera-lost-german",
-        path="theatre?lang=de",
-        order="lost",
-        clicks=("alarms-more",),
-        ready=ALERT,
-    ),
     State(
         name="supervisor-camera-lost", path="supervisor", order="lost", clicks=("alarms-more",), ready=ALERT
     ),
@@ -159,7 +162,7 @@ SUPERVISED_STATES = (
     State(name="supervised-supervisor", path="supervisor", person="s1", ready=LIVE_NUMBERS),
     *(
         State(
-            name=f"supervised-{fold}",
+            name=f"supervised-fold-{fold}",
             path=f"supervisor?{fold}",
             person="s1",
             clicks=(f"fold-{fold} summary",),

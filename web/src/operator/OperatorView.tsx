@@ -29,7 +29,8 @@ export function OperatorView(): ReactNode {
       </a>
       <OperatorTop />
       <AlarmBand />
-      <ConfirmRestart />
+      {/* With the figures where they are shown. */}
+      {page?.name !== "navigate" && <ConfirmRestart />}
       <ConsentQuestion />
       <div className="operator-body">
         <StepRail now={page} />

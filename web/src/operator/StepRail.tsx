@@ -60,7 +60,7 @@ export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
                   <span className="rail-name">{texts.page[page.name]}</span>
                   <span className="rail-state">
                     {step === null ? "" : stateText(step, texts)}
-                    {step !== null && !step.allowed && ` · ${texts.locked}`}
+                    {step !== null && !step.allowed && !isNext && ` · ${texts.locked}`}
                     {isNext && ` · ${texts.now}`}
                   </span>
                   {step !== null && isInvalid(step) && (

@@ -12,10 +12,12 @@ interface NumbersPaneProps {
   large?: readonly FigureName[];
   /** Shown below the headline. */
   beside?: ReactNode;
+  /** Shown over the figures while they are withheld. */
+  over?: ReactNode;
 }
 
 /** The surgeon's numbers with their limits, replaced by words when they are not live. */
-export function NumbersPane({ large = [], beside }: NumbersPaneProps): ReactNode {
+export function NumbersPane({ large = [], beside, over }: NumbersPaneProps): ReactNode {
   const texts = useTexts();
   const pane = useRef<HTMLDivElement>(null);
 
@@ -36,6 +38,7 @@ export function NumbersPane({ large = [], beside }: NumbersPaneProps): ReactNode
       </h2>
       <div className="numbers" data-testid="numbers" data-live="false" ref={pane}>
         <NumbersState>{beside}</NumbersState>
+        {over}
         <div className="readings" id="numbers" tabIndex={-1}>
           {FIGURES.map((name) => (
             <FigureTile key={name} name={name} isLarge={large.includes(name)} />

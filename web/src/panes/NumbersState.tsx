@@ -4,6 +4,7 @@ import { useLive, usePainter } from "../live/LiveContext";
 import type { HeadlineMessage } from "../live/messages";
 import { formatDuration } from "../live/rounding";
 import type { Texts } from "../texts/en";
+import { keepUnits } from "../texts/keepUnits";
 import { textOf } from "../texts/text";
 import { useTexts } from "../texts/TextsContext";
 import { ProposedChannel } from "./ProposedChannel";
@@ -24,11 +25,11 @@ export function NumbersState({ children }: { children?: ReactNode }): ReactNode 
   usePainter(({ numbers, untrackedMs }) => {
     const live = numbers.live ? numbers.reading.headline : null;
     paintHeadline(headline.current, live, texts);
-    setText(detail.current, live === null ? reasonTexts(numbers, texts) : textOf(live.detail, texts));
-    setText(event.current, eventText(numbers, texts));
-    setText(risk.current, numbers.live ? riskText(numbers.reading.assessment, texts) : "");
+    setLine(detail.current, live === null ? reasonTexts(numbers, texts) : textOf(live.detail, texts));
+    setLine(event.current, eventText(numbers, texts));
+    setLine(risk.current, numbers.live ? riskText(numbers.reading.assessment, texts) : "");
     setText(since.current, untrackedMs === null ? "" : formatDuration(untrackedMs));
-    setText(error.current, errorLine(numbers, texts));
+    setLine(error.current, errorLine(numbers, texts));
   });
 
   return (
@@ -82,8 +83,12 @@ function errorLine(numbers: NumbersVerdict, texts: Texts): string {
   return lagMs > 0 ? `${line} · ${texts.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : line;
 }
 
+function setLine(line: HTMLElement | null, text: string): void {
+  setText(line, keepUnits(text));
+}
+
 function paintHeadline(line: HTMLElement | null, headline: HeadlineMessage | null, texts: Texts): void {
   setData(line, "tone", headline?.tone ?? "none");
   setData(line, "verdict", headline?.verdict ?? "none");
-  setText(line, headline === null ? "" : `${TONE_SYMBOL[headline.tone]} ${textOf(headline.title, texts)}`);
+  setLine(line, headline === null ? "" : `${TONE_SYMBOL[headline.tone]} ${textOf(headline.title, texts)}`);
 }

@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../texts/TextsContext";
 import { lookText, shortLookText } from "./lookText";
 import type { ConnectionState, PageLook, Person } from "./messages";
+import { personName } from "./personName";
 import { useRoomSnapshot } from "./RoomContext";
 
 const SYMBOL: Record<ConnectionState, string> = { good: "●", slow: "◐", silent: "▲" };
@@ -29,7 +30,7 @@ export function Viewers(): ReactNode {
             <span aria-hidden="true" className="watching-line">
               {SYMBOL[one.line]}
             </span>{" "}
-            <b>{one.name}</b>{" "}
+            <b>{personName(one.name, all)}</b>{" "}
             {!one.is_you && <Looks pages={pageInFront(one)} text={(page) => shortLookText(page, all)} />}{" "}
             <span className="watching-role">{texts.role[one.role]}</span>
             {one.is_you && <span className="watching-role"> · {texts.you}</span>}
@@ -52,7 +53,7 @@ export function ViewerLooks(): ReactNode {
     <ul className="looks" aria-label={texts.what} data-testid="looks">
       {people.map((one) => (
         <li key={`${one.name} ${one.role} ${one.since}`}>
-          <b>{one.name}</b> <span className="watching-role">{texts.role[one.role]}</span>
+          <b>{personName(one.name, all)}</b> <span className="watching-role">{texts.role[one.role]}</span>
           {one.is_you && <span className="watching-role"> · {texts.you}</span>}
           {one.line !== "good" && <em> · {texts.line[one.line]}</em>}
           <Looks pages={one.pages} text={(page) => lookText(page, all)} />

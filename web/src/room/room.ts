@@ -2,6 +2,7 @@
 import type { ViewName } from "../app/views";
 import { firstMessageAt, type FirstMessage, type FirstMessageWait } from "../live/firstMessage";
 import { socketAddress } from "../live/socketAddress";
+import { pageLanguage } from "../texts/pageLanguage";
 import type { Hold, Person, RoomMessage, ClientMessage, Signable, You } from "./messages";
 import { RoomConnection, type RoomSocket } from "./roomConnection";
 import { afterMessage, stateAt, NOBODY, type RoomState } from "./roomState";
@@ -30,7 +31,7 @@ export class Room {
 
   constructor(view: ViewName) {
     this.connection = new RoomConnection({
-      open: () => new WebSocket(socketAddress(`/ws/room?view=${view}`)) as RoomSocket,
+      open: () => new WebSocket(socketAddress(`/ws/room?view=${view}&lang=${pageLanguage()}`)) as RoomSocket,
       later: (action, waitMs) => {
         setTimeout(action, waitMs);
       },

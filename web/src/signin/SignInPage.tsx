@@ -4,6 +4,8 @@ import { Link } from "wouter";
 import { useSession, type Session } from "../app/session";
 import { homeOf } from "../app/views";
 import type { Rejection } from "../rest/client";
+import { personName } from "../room/personName";
+import type { Texts } from "../texts/en";
 import type { SignInTexts } from "../texts/signin/en";
 import { useTexts } from "../texts/TextsContext";
 import { About } from "./About";
@@ -25,7 +27,7 @@ export function SignInPage(): ReactNode {
   const { busy, rejection, signIn } = useSignIn();
   const [typed, setTyped] = useState("");
   const token = tokenIn(typed);
-  const message = messageFor(session, rejection, texts);
+  const message = messageFor(session, rejection, all);
   const waiting = busy || (session.state === "asking" && !session.silent);
   const isNew = !waiting && message.kind === "needed";
   return (
@@ -89,7 +91,8 @@ export function SignInPage(): ReactNode {
 }
 
 /** Title and sentence of a rejection, in the page's words if it has them. */
-function messageFor(session: Session, rejection: Rejection | null, texts: SignInTexts): SignInMessage {
+function messageFor(session: Session, rejection: Rejection | null, all: Texts): SignInMessage {
+  const texts = all.signIn;
   if (rejection !== null) {
     const { code, message, remedy, context } = rejection.problem;
     const text = texts.rejected[code as keyof SignInTexts["rejected"]] as RejectionText | undefined;
@@ -101,7 +104,7 @@ function messageFor(session: Session, rejection: Rejection | null, texts: SignIn
   if (session.state === "in") {
     return {
       kind: "in",
-      title: `${texts.signedInAs} ${session.who.name}`,
+      title: `${texts.signedInAs} ${personName(session.who.name, all)}`,
       sentence: texts.role[session.who.role],
     };
   }

@@ -150,8 +150,7 @@ function SignState({ signable }: { signable: Signable | null }): ReactNode {
   return (
     <span className="sign-state" data-state={signable.is_cosigned ? "done" : waits ? "waits" : "open"}>
       <span aria-hidden="true">{signable.is_cosigned ? "✓" : waits ? "▲" : "○"}</span>{" "}
-      {signable.is_cosigned ? texts.done : texts.open}
-      {waits && ` · ${texts.required}`}
+      {signable.is_cosigned ? texts.done : waits ? texts.due : texts.open}
     </span>
   );
 }

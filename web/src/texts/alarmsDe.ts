@@ -7,7 +7,7 @@ export const alarmsDe: Texts["alarms"] = {
   all: "Alle Alarme",
   unknown: "ALARME UNBEKANNT: Der Server antwortet nicht",
   acknowledge: "Quittieren",
-  pause: "Ton 120 s pausieren",
+  pause: "Ton 120\u00a0s pausieren",
   paused: "Ton pausiert",
   resume: "Ton einschalten",
   failed: "Der Server hat dies nicht erhalten oder nicht protokolliert. Erneut versuchen.",

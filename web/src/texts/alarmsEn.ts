@@ -7,7 +7,7 @@ export const alarmsEn: Texts["alarms"] = {
   all: "All alarms",
   unknown: "ALARMS UNKNOWN: the server does not answer",
   acknowledge: "Acknowledge",
-  pause: "Pause sound 120 s",
+  pause: "Pause sound 120\u00a0s",
   paused: "Sound paused",
   resume: "Turn sound on",
   failed: "The server did not receive or log this. Try again.",

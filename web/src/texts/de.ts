@@ -81,9 +81,9 @@ export const de: Texts = {
     "not-at-all": "Kein Patientenmarker: Bewegungen von Patient oder Kamera werden nicht erkannt.",
   },
   depthTexts: {
-    before: "vor dem Eintritt",
+    before: "vor Eintritt",
     inside: "hinter der Eintrittsebene",
-    past: "GEPLANTES ENDE ÜBERSCHRITTEN",
+    past: "ZU TIEF",
     across: "Bohrer quer zum Kanal",
   },
   scene: {

@@ -85,7 +85,7 @@ export const en: Texts = {
   depthTexts: {
     before: "before entry",
     inside: "past the entry plane",
-    past: "PAST THE PLANNED END",
+    past: "TOO DEEP",
     across: "drill lies across the channel",
   },
   scene: {

@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { Moves } from "../panes/Moves";
@@ -9,7 +10,7 @@ export function FiguresMain(): ReactNode {
   return (
     <main className="theatre-main">
       <AfterFirstMessage loading={<LoadingNumbers />}>
-        <NumbersPane beside={<Moves />} />
+        <NumbersPane beside={<Moves />} over={<ConfirmRestart />} />
       </AfterFirstMessage>
     </main>
   );

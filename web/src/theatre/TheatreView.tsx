@@ -36,14 +36,13 @@ export function TheatreView(): ReactNode {
       </a>
       <TheatreTop layouts={layouts} />
       {answersAlarms ? <AlarmBand /> : <AlarmsShown />}
-      <ConfirmRestart />
       {isFigures ? (
         <FiguresMain />
       ) : (
         <main className="theatre-main">
           <VideoPane />
           <AfterFirstMessage loading={<LoadingNumbers />}>
-            <NumbersPane large={LARGE_FIGURES[layout]} />
+            <NumbersPane large={LARGE_FIGURES[layout]} over={<ConfirmRestart />} />
           </AfterFirstMessage>
           <CutsProvider>
             <Tiles layout={layout} isWide={isWide} />

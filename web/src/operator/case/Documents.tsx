@@ -43,7 +43,7 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
       {data === null && <QueryStatus query={query} />}
       {data !== null && shown.length === 0 && <EmptyState drawing="log" sentence={texts.noDocuments} />}
       {shown.length > 0 && (
-        <Table.ScrollContainer minWidth={520}>
+        <div className="stacked">
           <Table verticalSpacing="sm">
             <Table.Thead>
               <Table.Tr>
@@ -58,7 +58,7 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
               ))}
             </Table.Tbody>
           </Table>
-        </Table.ScrollContainer>
+        </div>
       )}
     </Card>
   );

@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { ConfirmRestart } from "../../app/ConfirmRestart";
 import { CutsProvider } from "../../cuts/CutsContext";
 import { ChosenTile } from "../../cuts/CutTile";
 import { AfterFirstMessage } from "../../live/AfterFirstMessage";
@@ -23,7 +24,7 @@ export function NavigatePage(): ReactNode {
       <Gates />
       <div className="board">
         <AfterFirstMessage loading={<LoadingNumbers />}>
-          <NumbersPane />
+          <NumbersPane over={<ConfirmRestart />} />
         </AfterFirstMessage>
         <VideoPane />
         <CutsProvider>

@@ -1,20 +1,16 @@
 import { useRef, type ReactNode } from "react";
-import { useLive, usePainter } from "../../live/LiveContext";
+import { usePainter } from "../../live/LiveContext";
 import { formatNumber } from "../../live/rounding";
 import { setText } from "../../panes/setText";
-import { errorText } from "../../panes/verdictText";
 import { useTexts } from "../../texts/TextsContext";
 
-/** Smoothing and delay of the numbers, when markers were last seen, and how movement is detected. */
+/** Smoothing and delay of the numbers, and when markers were last seen. */
 export function Steadiness(): ReactNode {
   const texts = useTexts();
-  const { view } = useLive();
-  const tip = useRef<HTMLElement>(null);
   const lag = useRef<HTMLElement>(null);
   const unseen = useRef<HTMLElement>(null);
   usePainter(({ newest, numbers }) => {
     const reading = numbers.live ? numbers.reading : null;
-    setText(tip.current, reading === null ? "—" : errorText(reading.assessment, texts));
     setText(
       lag.current,
       reading === null
@@ -34,14 +30,9 @@ export function Steadiness(): ReactNode {
         .join(" · ") || "—",
     );
   });
-  const moves = view.newest?.snapshot?.motion.motion_detected_by;
   return (
     <section className="card steadiness" data-testid="steadiness">
       <dl>
-        <div>
-          <dt>{texts.navigate.tip}</dt>
-          <dd ref={tip} />
-        </div>
         <div>
           <dt>{texts.navigate.lag}</dt>
           <dd ref={lag} />
@@ -51,11 +42,6 @@ export function Steadiness(): ReactNode {
           <dd ref={unseen} />
         </div>
       </dl>
-      {moves !== undefined && (
-        <p className={moves === "reference" ? "quiet" : "warning"}>
-          {moves === "reference" ? "✓" : "▲"} {texts.moves[moves]}
-        </p>
-      )}
     </section>
   );
 }

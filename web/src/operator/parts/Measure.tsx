@@ -30,13 +30,12 @@ export function Measure({ name, value, unit, decimals = 2, limit, bar, testId }:
   const texts = useTexts().case.measure;
   const within = isWithin(value, limit);
   const shown = value === null ? NOT_KNOWN : formatFigure(value, decimals);
-  const interpolate =
-    limit === undefined || value === null ? 0 : Math.min(1, Math.max(0, value / limit.value));
+  const progress = limit === undefined || value === null ? 0 : Math.min(1, Math.max(0, value / limit.value));
   return (
     <div className="measure" data-within={within ?? undefined} data-testid={testId}>
       <dt>{name}</dt>
       <dd>
-        <span className="measure-value">
+        <span className="measure-value whole">
           {shown} <span className="unit">{unit}</span>
         </span>
         {limit !== undefined && (
@@ -46,12 +45,15 @@ export function Measure({ name, value, unit, decimals = 2, limit, bar, testId }:
                 {within ? "✓" : "✕"}
               </span>
             )}
-            {limit.kind === "max" ? texts.max : texts.min} {formatFigure(limit.value, decimals)} {unit}
+            {limit.kind === "max" ? texts.max : texts.min}{" "}
+            <span className="whole">
+              {formatFigure(limit.value, decimals)} {unit}
+            </span>
           </span>
         )}
         {bar === true && (
           <span className="measure-bar" aria-hidden="true">
-            <span style={{ width: `${String(interpolate * 100)}%` }} />
+            <span style={{ width: `${String(progress * 100)}%` }} />
           </span>
         )}
       </dd>

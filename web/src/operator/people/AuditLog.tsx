@@ -2,6 +2,7 @@ import { Alert, Button, Table } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { getAudit } from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
+import { personName } from "../../room/personName";
 import { useQuery } from "../../rest/useQuery";
 import { useTexts } from "../../texts/TextsContext";
 import { formatSecond } from "../parts/format";
@@ -28,8 +29,13 @@ export function AuditLog(): ReactNode {
       {data === null && <QueryStatus query={query} />}
       {data?.is_intact === true && (
         <p>
-          ✓ {texts.whole} · {pluralize(texts.lines, data.count, all.language)} ·{" "}
-          <code title={data.sum}>{data.sum.slice(0, 16)}</code>
+          ✓ {texts.whole} · {pluralize(texts.lines, data.count, all.language)}
+          {data.sum !== "" && (
+            <>
+              {" "}
+              · <code title={data.sum}>{data.sum.slice(0, 16)}</code>
+            </>
+          )}
         </p>
       )}
       {data?.is_intact === false && (
@@ -53,7 +59,7 @@ export function AuditLog(): ReactNode {
               <Table.Tr key={row.number}>
                 <Table.Td>{row.number}</Table.Td>
                 <Table.Td>{row.at === "" ? "" : formatSecond(row.at, all.language)}</Table.Td>
-                <Table.Td>{row.who}</Table.Td>
+                <Table.Td>{personName(row.who, all)}</Table.Td>
                 <Table.Td title={row.written}>
                   {row.what}
                   {row.changes.map((change) => (

@@ -24,7 +24,7 @@ export function Measure({ name, value, unit, max, digits = 2, hint }: MeasurePro
         {hint !== undefined && <small>{hint}</small>}
       </dt>
       <dd>
-        <strong>
+        <strong className="whole">
           {value === null ? "—" : formatNumber(value, digits)} <span className="unit">{unit}</span>
         </strong>
         {limited && (
@@ -35,7 +35,10 @@ export function Measure({ name, value, unit, max, digits = 2, hint }: MeasurePro
                 {isWithinLimit ? texts.within : texts.over} ·{" "}
               </b>
             )}
-            {texts.allowed} {formatNumber(max, digits)} {unit}
+            {texts.allowed}{" "}
+            <span className="whole">
+              {formatNumber(max, digits)} {unit}
+            </span>
           </small>
         )}
       </dd>

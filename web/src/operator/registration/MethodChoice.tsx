@@ -20,7 +20,6 @@ export function MethodChoice(): ReactNode {
     <div className="registration">
       <RegistrationNow />
       <SetupCheckNote />
-      <p className="quiet">{texts.choice.ends}</p>
       <ul className="methods">
         {(Object.keys(PATH) as Method[]).map((method) => (
           <li key={method}>

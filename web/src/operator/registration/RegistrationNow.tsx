@@ -42,55 +42,58 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
   const lost = heading.withdrawn?.reason ?? heading.out_of_date;
   const check = procedure.data?.steps.find((one) => one.step === "check");
   return (
-    <section className="card" data-testid="registration-now">
-      <h3>
-        {interpolate(texts.now.title, { vertebra: data.vertebra, version: heading.version })}{" "}
-        <Badge size="lg" color={heading.current ? "teal" : "yellow"}>
-          {heading.current ? texts.now.holds : texts.now.lost}
-        </Badge>
-      </h3>
-      <p>
-        {texts.method[data.method]} · <Maker of={heading} /> · {formatTime(heading.made_at, all.language)} ·{" "}
-        {data.reference === null
-          ? texts.now.toCamera
-          : interpolate(texts.now.toMarker, { marker: data.reference })}
-      </p>
-      {lost !== null && <p className="warning">▲ {lost}</p>}
-      <RegistrationNumbers method={data.method} numbers={data.numbers} />
-      <RegistrationRejection rejection={withdrawing.rejection} />
-      <div className="row">
-        {heading.current && (
-          <>
-            <Link className="big-link" href="/operator/check" data-testid="to-check">
-              {check?.state === "done" ? texts.now.checked : texts.now.toCheck}
-            </Link>
-            <Link className="big-link" href="/operator/register/nudges" data-testid="to-nudges">
-              {texts.now.nudge}
-            </Link>
-            <ConfirmOrCancelButton
-              needsConfirmation
-              variant="default"
-              confirmLabel={texts.now.withdrawSure}
-              busy={withdrawing.busy}
-              onConfirm={() => {
-                void withdrawing
-                  .run(async () => {
-                    await postCasesByCaseIdDocumentsByDocumentIdWithdrawal({
-                      path: { case_id: caseId, document_id: heading.id },
-                      body: { by: madeBy, reason: texts.now.withdrawReason },
+    <>
+      <section className="card" data-testid="registration-now">
+        <h3>
+          {interpolate(texts.now.title, { vertebra: data.vertebra, version: heading.version })}{" "}
+          <Badge size="lg" color={heading.current ? "teal" : "yellow"}>
+            {heading.current ? texts.now.holds : texts.now.lost}
+          </Badge>
+        </h3>
+        <p>
+          {texts.method[data.method]} · <Maker of={heading} /> · {formatTime(heading.made_at, all.language)} ·{" "}
+          {data.reference === null
+            ? texts.now.toCamera
+            : interpolate(texts.now.toMarker, { marker: data.reference })}
+        </p>
+        {lost !== null && <p className="warning">▲ {lost}</p>}
+        <RegistrationNumbers method={data.method} numbers={data.numbers} />
+        <RegistrationRejection rejection={withdrawing.rejection} />
+        <div className="row">
+          {heading.current && (
+            <>
+              <Link className="big-link" href="/operator/check" data-testid="to-check">
+                {check?.state === "done" ? texts.now.checked : texts.now.toCheck}
+              </Link>
+              <Link className="big-link" href="/operator/register/nudges" data-testid="to-nudges">
+                {texts.now.nudge}
+              </Link>
+              <ConfirmOrCancelButton
+                needsConfirmation
+                variant="default"
+                confirmLabel={texts.now.withdrawSure}
+                busy={withdrawing.busy}
+                onConfirm={() => {
+                  void withdrawing
+                    .run(async () => {
+                      await postCasesByCaseIdDocumentsByDocumentIdWithdrawal({
+                        path: { case_id: caseId, document_id: heading.id },
+                        body: { by: madeBy, reason: texts.now.withdrawReason },
+                      });
+                    })
+                    .then(() => {
+                      query.refetch();
+                      procedure.refetch();
                     });
-                  })
-                  .then(() => {
-                    query.refetch();
-                    procedure.refetch();
-                  });
-              }}
-            >
-              {texts.now.withdraw}
-            </ConfirmOrCancelButton>
-          </>
-        )}
-      </div>
-    </section>
+                }}
+              >
+                {texts.now.withdraw}
+              </ConfirmOrCancelButton>
+            </>
+          )}
+        </div>
+      </section>
+      <p className="quiet">{texts.choice.ends}</p>
+    </>
   );
 }

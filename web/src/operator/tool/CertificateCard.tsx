@@ -46,16 +46,18 @@ export function CertificateCard(): ReactNode {
       ) : (
         query.data.tools.map((tool) => <ToolState key={tool.tool} tool={tool} texts={texts} />)
       )}
-      <FileButton
-        accept=".json,.pdf,application/json,application/pdf"
-        disabled={installing.moved !== null}
-        testId="certificate-file"
-        onFiles={([file]) => {
-          install(file);
-        }}
-      >
-        {texts.install}
-      </FileButton>
+      <div className="row">
+        <FileButton
+          accept=".json,.pdf,application/json,application/pdf"
+          disabled={installing.moved !== null}
+          testId="certificate-file"
+          onFiles={([file]) => {
+            install(file);
+          }}
+        >
+          {texts.install}
+        </FileButton>
+      </div>
       <RejectionNote rejection={installing.rejection} />
       {query.data !== null && (
         <details className="more" open={query.data.collecting} data-testid="accuracy">

@@ -13,7 +13,7 @@ export const certificateDe: CertificateTexts = {
   issuedOnly: "Ausgestellt {day}",
   pdf: "Zertifikat als PDF",
   json: "Zertifikat als JSON",
-  guide: "Die Genauigkeit testen",
+  guide: "Anleitung zum Test (englisch)",
   guided: {
     test: "Die Genauigkeit jetzt testen",
     testLead:

@@ -7,7 +7,7 @@ export const marksDe: MarksTexts = {
     "Zum Zeigen über den Schnitt fahren, zum Zeichnen ein Werkzeug wählen und ziehen. Die Pfeiltasten bewegen den Zeiger.",
   tools: "Zeigen und zeichnen",
   tool: { point: "Zeigen", pen: "Stift", arrow: "Pfeil", circle: "Kreis" },
-  undo: "Rückgängig",
+  undo: "Rück\u00adgängig",
   clear: "Meine löschen",
   clearAll: "Alle löschen",
   ago: "vor # s",

@@ -20,7 +20,6 @@ export const navigateDe: NavigateTexts = {
       "Sitzt der Marker noch fest am Knochen, zeigt eine Prüfung an einer Landmarke, ob alles stimmt. Sonst neu registrieren.",
     go: "An einer Landmarke prüfen",
   },
-  tip: "Spitze",
   lag: "Glättung",
   steadied: "geglättet, verzögert um",
   notSteadied: "keine, jedes Bild einzeln",

@@ -17,7 +17,6 @@ export const navigateEn = {
       "If the marker is still fixed to the bone, a check on a landmark shows whether everything agrees. Otherwise register again.",
     go: "Check on a landmark",
   },
-  tip: "Tip",
   lag: "Smoothing",
   steadied: "smoothed, delayed by",
   notSteadied: "none, each image by itself",

@@ -3,6 +3,7 @@ import type { RoomTexts } from "./en";
 export const roomDe: RoomTexts = {
   watching: "Zuschauer",
   unknown: "Wer zusieht, ist zurzeit nicht bekannt.",
+  thisComputer: "dieser Computer",
   you: "Sie",
   role: {
     operator: "Bedienung",

@@ -1,6 +1,7 @@
 export const roomEn = {
   watching: "Watching",
   unknown: "It is not known at present who is watching.",
+  thisComputer: "this computer",
   you: "you",
   role: {
     operator: "operator",

@@ -10,10 +10,10 @@ export const supervisorDe: SupervisorTexts = {
     numbers: "Werte",
     scene: "3-D",
     line: "Verbindung",
-    notShown: "nicht geöffnet",
+    notShown: "nicht offen",
     gone: "nicht live",
     good: "verbunden",
-    lost: "getrennt, verbindet neu",
+    lost: "verbindet neu",
   },
   hold: {
     title: "Anhalten",
@@ -95,6 +95,7 @@ export const supervisorDe: SupervisorTexts = {
     anybody:
       "Auf diesem Server meldet sich niemand an. Eine Unterschrift gilt deshalb nicht als die einer zweiten Person.",
     done: "gegengezeichnet",
+    due: "gegen\u00adzuzeichnen",
     open: "nicht gegengezeichnet",
   },
   audit: "Protokoll der Handlungen",

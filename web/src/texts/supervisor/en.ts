@@ -11,7 +11,7 @@ export const supervisorEn = {
     notShown: "not opened",
     gone: "not live",
     good: "connected",
-    lost: "lost, reconnecting",
+    lost: "reconnecting",
   },
   hold: {
     title: "Hold",
@@ -98,6 +98,7 @@ export const supervisorEn = {
     invitedByMaker: "invited by {name}, who made the document",
     anybody: "Nobody signs in on this server, so a signature does not count as that of a second person.",
     done: "co-signed",
+    due: "to be co-signed",
     open: "not co-signed",
   },
   audit: "Audit log",
