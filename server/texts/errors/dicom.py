@@ -1,0 +1,54 @@
+"""Messages of errors of DICOM objects and of their way to and from an archive, by code."""
+
+from collections.abc import Mapping
+
+from server.texts.language import Text
+
+DICOM: Mapping[str, tuple[Text, ...]] = {
+    "DICOM_LABELS_OFF_GRID": (
+        {
+            "en": "the labels do not lie on the voxels of this CT",
+            "de": "die Labels liegen nicht auf den Voxeln dieses CTs",
+        },
+    ),
+    "DICOM_NOTHING_TO_WRITE": (
+        {
+            "en": "the plan has {vertebrae} vertebrae, but no pedicle and no channel, and there are no "
+            "labels and surfaces",
+            "de": "der Plan hat {vertebrae} Wirbel, aber keinen Pedikel und keinen Kanal, und es gibt keine "
+            "Labels und Oberflächen",
+        },
+    ),
+    "DICOM_SEG_TILTED": (
+        {
+            "en": "the slices are tilted by {tilt_deg:.1f} deg and shifted by {sheared_mm:.1f} mm against a "
+            "right-angled stack, allowed {max_mm:g} mm: many programs would show the segmentation beside the "
+            "bone",
+            "de": "die Schichten sind um {tilt_deg:.1f} Grad gekippt und um {sheared_mm:.1f} mm gegen einen "
+            "rechtwinkligen Stapel verschoben, erlaubt {max_mm:g} mm: viele Programme würden die "
+            "Segmentierung neben dem Knochen zeigen",
+        },
+    ),
+    "DICOM_SOURCE_INCOMPLETE": (
+        {
+            "en": "{missing} of {files} files of the CT do not state their {attribute}, which objects of the "
+            "same study refer to",
+            "de": "{missing} von {files} Dateien des CTs nennen ihre {attribute} nicht, auf die sich Objekte "
+            "derselben Studie beziehen",
+        },
+        {
+            "en": "the header of a slice has an attribute that cannot be read",
+            "de": "der Kopf einer Schicht hat ein Attribut, das nicht lesbar ist",
+        },
+        {
+            "en": "patient or study in the headers of the CT cannot be written",
+            "de": "Patient oder Studie in den Köpfen des CTs lassen sich nicht schreiben",
+        },
+    ),
+    "DICOM_STUDIES_MIXED": (
+        {
+            "en": "the files of the CT belong to {studies} studies, expected 1",
+            "de": "die Dateien des CTs gehören zu {studies} Studien, erwartet 1",
+        },
+    ),
+}
