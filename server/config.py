@@ -323,6 +323,28 @@ class OpenIgtLinkConfig(Section):
     """Names of tools in message names, at most 10 characters; default: the name of the tool."""
 
 
+AeTitle: TypeAlias = Annotated[str, StringConstraints(pattern=r"^[!-\[\]-~]([ -\[\]-~]{0,14}[!-\[\]-~])?$")]
+
+
+class DicomArchiveConfig(Section):
+    """The archive that `coaxial plan send` sends to."""
+
+    host: Annotated[str, StringConstraints(min_length=1)] | None = None
+    port: Annotated[int, Field(ge=1, le=65535)] = 104
+    ae_title: AeTitle = "ARCHIVE"
+    tls: bool = False
+    ca: FilePath | None = None
+    """PEM with the authority of the archive's certificate; default: those of this system."""
+
+
+class DicomConfig(Section):
+    """DICOM network."""
+
+    ae_title: AeTitle = "COAXIAL"
+    """Own AE title."""
+    archive: DicomArchiveConfig = DicomArchiveConfig()
+
+
 class CosignConfig(Section):
     """Documents that a second person signs. required: navigation waits for it; offered: it is optional.
 
@@ -412,5 +434,6 @@ class Config(Section):
     plan: PlanConfig = PlanConfig()
     video: VideoConfig = VideoConfig()
     openigtlink: OpenIgtLinkConfig = OpenIgtLinkConfig()
+    dicom: DicomConfig = DicomConfig()
     recording: RecordingConfig = RecordingConfig()
     plugins: PluginsConfig = PluginsConfig()

@@ -250,7 +250,11 @@ def _with_absolute_paths(config: Config, *, folder: Path, origins: Mapping[Key, 
         if path is not None
     }
     server = config.server.model_copy(update={"tls": tls.model_copy(update=files)})
+    archive = config.dicom.archive
+    if archive.ca is not None:
+        archive = archive.model_copy(update={"ca": resolved(archive.ca, ("dicom", "archive", "ca"))})
     updated = {
+        "dicom": config.dicom.model_copy(update={"archive": archive}),
         "server": server,
         "camera": camera.model_copy(update=changes),
         "markers": markers,

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import typer
 
+from server.cli.options import SettingOptions, config_from_options
 from server.cli.output import remark_text, write_atomically
 from server.cli.plan_file import PlanFile, read_plan_file
 from server.imaging import Ct
@@ -32,7 +33,7 @@ class DicomOptions:
 
     plan: Path
     ct: Path
-    output: Path
+    output: Path | None = None
     labels: Path | None = None
     names: str = ""
     surfaces: tuple[str, ...] = ()
@@ -47,9 +48,33 @@ def write_plan_dicom(options: DicomOptions) -> None:
             with CT_, LABEL, MESH, SURFACE or DICOM_.
         PlanError: the plan is invalid; LEVEL_DOUBTFUL.
     """
+    folder = options.output or Path()
     for one in objects_of_plan(options):
-        write_atomically(options.output / one.file_name, one.content)
-        typer.echo(f"Wrote {one.name} to {options.output / one.file_name}")
+        write_atomically(folder / one.file_name, one.content)
+        typer.echo(f"Wrote {one.name} to {folder / one.file_name}")
+
+
+def send_plan_dicom(options: DicomOptions, config: Path | None) -> None:
+    """Send the objects of an exported plan to the archive of the settings, and print its answer for each.
+
+    Raises:
+        InvalidInput, PlanError: as `write_plan_dicom`; ARCHIVE_NOT_COMPLETE.
+        ArchiveError: the archive cannot be reached.
+    """
+    from server.imaging.dicom_network.sender import send_objects  # noqa: PLC0415  only here
+
+    settings = config_from_options(SettingOptions(config=config)).dicom
+    answers = send_objects(objects_of_plan(options), settings)
+    for one in answers:
+        typer.echo(f"{one.name}: {one.text}")
+    missing = sum(not one.is_stored for one in answers)
+    if missing:
+        raise InvalidInput(
+            "ARCHIVE_NOT_COMPLETE",
+            f"the archive did not store {missing} of {len(answers)} objects",
+            "See its answer for each; sending again makes new objects.",
+            {"missing": missing, "objects": len(answers)},
+        )
 
 
 def objects_of_plan(options: DicomOptions) -> tuple[PlanObject, ...]:

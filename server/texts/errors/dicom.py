@@ -5,6 +5,27 @@ from collections.abc import Mapping
 from server.texts.language import Text
 
 DICOM: Mapping[str, tuple[Text, ...]] = {
+    "ARCHIVE_CERTIFICATE_UNUSABLE": (
+        {
+            "en": "there is no certificate in {file} that the archive's could be verified with",
+            "de": "in {file} ist kein Zertifikat, mit dem sich das des Archivs prüfen ließe",
+        },
+    ),
+    "ARCHIVE_NOT_SET": (
+        {"en": "the settings name no archive", "de": "die Einstellungen nennen kein Archiv"},
+    ),
+    "ARCHIVE_REJECTED": (
+        {
+            "en": "the archive {ae_title} at {host}:{port} rejects the connection of {own_title}",
+            "de": "das Archiv {ae_title} unter {host}:{port} weist die Verbindung von {own_title} ab",
+        },
+    ),
+    "ARCHIVE_UNREACHABLE": (
+        {
+            "en": "the archive at {host}:{port} does not answer",
+            "de": "das Archiv unter {host}:{port} antwortet nicht",
+        },
+    ),
     "DICOM_LABELS_OFF_GRID": (
         {
             "en": "the labels do not lie on the voxels of this CT",

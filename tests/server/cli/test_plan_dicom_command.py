@@ -8,6 +8,7 @@ from typing import Any
 import pydicom
 import pytest
 import trimesh
+from pynetdicom import AE, AllStoragePresentationContexts, evt
 from typer.testing import CliRunner
 
 from server.cli import app
@@ -101,3 +102,30 @@ def test_a_surface_beside_the_ct_is_refused(folder: Path, tmp_path: Path) -> Non
         2,
         "SURFACE_OUTSIDE_CT",
     )
+
+
+@pytest.mark.parametrize(("status", "code"), [(0x0000, ""), (0xA700, "ARCHIVE_NOT_COMPLETE")])
+def test_a_plan_is_sent_to_the_archive_of_the_settings(
+    folder: Path, tmp_path: Path, status: int, code: str
+) -> None:
+    entity = AE(ae_title="ARCHIVE")
+    for context in AllStoragePresentationContexts:
+        entity.add_supported_context(context.abstract_syntax or "")
+    stored: list[str] = []
+
+    def store(event: evt.Event) -> int:
+        stored.append(str(event.dataset.PatientName))
+        return status
+
+    server = entity.start_server(("127.0.0.1", 0), block=False, evt_handlers=[(evt.EVT_C_STORE, store)])
+    assert server is not None
+    archive = {"host": "127.0.0.1", "port": server.server_address[1]}
+    (tmp_path / "config.yaml").write_text(json.dumps({"dicom": {"archive": archive}}))
+    given = ["plan", "send", folder / "plan.json", folder / "ct", "--config", tmp_path / "config.yaml"]
+    try:
+        result = CliRunner().invoke(app, [str(word) for word in given])
+    finally:
+        server.shutdown()
+    assert stored == [PATIENT] * 3
+    assert getattr(result.exception, "code", "") == code
+    assert ("report: stored" in result.output) is (status == 0)

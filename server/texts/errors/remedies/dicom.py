@@ -4,6 +4,22 @@ from server.texts.language import Text
 
 DICOM: tuple[Text, ...] = (
     {
+        "en": "Check address, port, TLS and network of the archive.",
+        "de": "Adresse, Port, TLS und Netz des Archivs prüfen.",
+    },
+    {
+        "en": "Enter this AE title in the archive, and check the archive's own AE title in the settings.",
+        "de": "Diesen AE-Titel im Archiv eintragen, und den des Archivs in den Einstellungen prüfen.",
+    },
+    {
+        "en": "Give a PEM file in dicom.archive.ca.",
+        "de": "Unter dicom.archive.ca eine PEM-Datei angeben.",
+    },
+    {
+        "en": "Set host, port and ae_title under dicom.archive.",
+        "de": "Unter dicom.archive host, port und ae_title setzen.",
+    },
+    {
         "en": "Export the CT from the archive again, without anonymising or converting it.",
         "de": "Das CT erneut aus dem Archiv exportieren, ohne es zu anonymisieren oder umzuwandeln.",
     },
