@@ -8,12 +8,13 @@ import subprocess
 import threading
 import urllib.request
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from pynetdicom.transport import AssociationSocket
 
 # Debian has Orthanc where only root's path leads.
 WHERE = os.pathsep.join([os.environ.get("PATH", os.defpath), "/usr/sbin", "/usr/local/sbin"])
@@ -36,6 +37,20 @@ def free_port() -> int:
         one.bind(("127.0.0.1", 0))
         port: int = one.getsockname()[1]
     return port
+
+
+def close_always(self: AssociationSocket) -> None:
+    """Close a socket also if its peer is gone, where pynetdicom leaves it to the garbage collector."""
+    if self.socket is not None:
+        with suppress(OSError):
+            self.socket.shutdown(socket.SHUT_RDWR)
+        self.socket.close()
+
+
+@pytest.fixture(autouse=True)
+def closed_sockets(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No socket of pynetdicom is left open; for a module that imports this."""
+    monkeypatch.setattr(AssociationSocket, "_shutdown_socket", close_always)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -72,4 +72,73 @@ DICOM: Mapping[str, tuple[Text, ...]] = {
             "de": "die Dateien des CTs gehören zu {studies} Studien, erwartet 1",
         },
     ),
+    "RECEIVED_NOT_COMPLETE": (
+        {
+            "en": "the series is not complete: {files} slices have arrived, and the sender has not finished",
+            "de": "die Serie ist nicht vollständig: {files} Schichten sind angekommen, und der Absender ist "
+            "nicht fertig",
+        },
+    ),
+    "RECEIVED_UNKNOWN": (
+        {
+            "en": "no received series has the id {series_id}",
+            "de": "keine empfangene Serie hat die Kennung {series_id}",
+        },
+    ),
+    "RECEIVER_ENDED": (
+        {
+            "en": "the receiver of DICOM ended {exit_reason} and is started again",
+            "de": "der Empfänger für DICOM endete {exit_reason} und wird neu gestartet",
+        },
+    ),
+    "RECEIVER_OFF": (
+        {
+            "en": "no series are received, because dicom.receive.port is not set",
+            "de": "es werden keine Serien empfangen, weil dicom.receive.port nicht gesetzt ist",
+        },
+    ),
+    "RECEIVE_CONTRADICTS": (
+        {
+            "en": "a slice was refused, because another one of the same identifier has arrived before",
+            "de": "eine Schicht wurde abgelehnt, weil zuvor eine andere mit derselben Kennung angekommen ist",
+        },
+    ),
+    "RECEIVE_DAMAGED": (
+        {
+            "en": "a file was refused, because it is no readable CT slice",
+            "de": "eine Datei wurde abgelehnt, weil sie keine lesbare CT-Schicht ist",
+        },
+    ),
+    "RECEIVE_FULL": (
+        {
+            "en": "a series was refused, because {waiting_gb:.1f} GB wait already, allowed {max_gb:g} GB",
+            "de": "eine Serie wurde abgelehnt, weil schon {waiting_gb:.1f} GB warten, erlaubt {max_gb:g} GB",
+        },
+    ),
+    "RECEIVE_INTERRUPTED": (
+        {
+            "en": "a connection ended before the sender had finished; its series is not complete",
+            "de": "eine Verbindung endete, bevor der Absender fertig war; seine Serie ist nicht vollständig",
+        },
+    ),
+    "RECEIVE_MANY_SERIES": (
+        {
+            "en": "a series was refused, because {waiting} wait already, allowed {max_series}",
+            "de": "eine Serie wurde abgelehnt, weil schon {waiting} warten, erlaubt {max_series}",
+        },
+    ),
+    "RECEIVE_NOT_WRITTEN": (
+        {
+            "en": "a slice was refused, because it cannot be written to the disk",
+            "de": "eine Schicht wurde abgelehnt, weil sie sich nicht auf die Platte schreiben lässt",
+        },
+    ),
+    "RECEIVE_SENDER_REFUSED": (
+        {
+            "en": "a connection of {title} was refused: its title or the called title is not in the "
+            "settings, or there are too many connections",
+            "de": "eine Verbindung von {title} wurde abgelehnt: ihr Titel oder der gerufene steht nicht in "
+            "den Einstellungen, oder es gibt zu viele Verbindungen",
+        },
+    ),
 }

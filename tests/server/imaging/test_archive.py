@@ -13,14 +13,9 @@ from server.config import DicomArchiveConfig, DicomConfig
 from server.imaging.dicom_network.sender import ArchiveError, send_objects
 from server.imaging.dicom_objects import PlanObject, plan_objects
 from server.security.tls.self_signed import load_or_create
-from tests.dicom_tools import Orthanc, free_port, orthanc_in
+from tests.dicom_tools import Orthanc, closed_sockets, free_port, orthanc_in  # noqa: F401  a fixture
 from tests.server.imaging.made_study import PATIENT, STUDY, labels_of, made_study, source_of
 from tests.tracker.plan.test_plan_document import document
-
-# pynetdicom leaves a socket whose peer is gone to the garbage collector.
-pytestmark = pytest.mark.filterwarnings(
-    "ignore:Exception ignored in. <s:pytest.PytestUnraisableExceptionWarning"
-)
 
 
 @pytest.fixture(scope="module")

@@ -35,4 +35,44 @@ DICOM: tuple[Text, ...] = (
         "en": "Write models and report without labels, or use a CT without gantry tilt.",
         "de": "Modelle und Bericht ohne Labels schreiben, oder ein CT ohne gekippte Gantry verwenden.",
     },
+    {
+        "en": "Check the AE titles under dicom in the settings, and those of the sender.",
+        "de": "Die AE-Titel unter dicom in den Einstellungen und die des Absenders prüfen.",
+    },
+    {
+        "en": "Discard the series, and send it again.",
+        "de": "Die Serie verwerfen und erneut senden.",
+    },
+    {
+        "en": "Free space on the disk, and send again.",
+        "de": "Platz auf der Platte schaffen und erneut senden.",
+    },
+    {
+        "en": "Read the list again; it may have been taken, discarded or too old.",
+        "de": "Die Liste erneut lesen; sie kann übernommen, verworfen oder zu alt geworden sein.",
+    },
+    {
+        "en": "Send the CT series alone.",
+        "de": "Die CT-Serie allein senden.",
+    },
+    {
+        "en": "Send the series again that was being sent.",
+        "de": "Die Serie erneut senden, die gerade gesendet wurde.",
+    },
+    {
+        "en": "Send the series again.",
+        "de": "Die Serie erneut senden.",
+    },
+    {
+        "en": "Set it in the settings, or upload the CT.",
+        "de": "Es in den Einstellungen setzen, oder das CT hochladen.",
+    },
+    {
+        "en": "Take or discard a series that waits, and send again.",
+        "de": "Eine wartende Serie übernehmen oder verwerfen und erneut senden.",
+    },
+    {
+        "en": "Wait until the sender has finished, or send the series again.",
+        "de": "Warten, bis der Absender fertig ist, oder die Serie erneut senden.",
+    },
 )
