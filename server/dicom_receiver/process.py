@@ -16,6 +16,8 @@ from tracker.errors import Remark
 
 # Whatever length a sender announces.
 MAX_MEMORY_BYTES = 4 * 2**30
+# A slice beyond the quota arrives whole, and is answered with the reason.
+SLICE_BYTES = 2**26
 POLL_S = 0.25
 
 
@@ -37,7 +39,8 @@ def run_receiver(
     with contextlib.suppress(ValueError, OSError):
         resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY_BYTES, MAX_MEMORY_BYTES))
         # A write beyond it fails, so that one file cannot fill the disk before the inbox counts it.
-        resource.setrlimit(resource.RLIMIT_FSIZE, (limits.max_bytes, limits.max_bytes))
+        max_file_bytes = limits.max_bytes + SLICE_BYTES
+        resource.setrlimit(resource.RLIMIT_FSIZE, (max_file_bytes, max_file_bytes))
     lock = threading.Lock()
 
     def report(remark: Remark) -> None:

@@ -11,12 +11,12 @@ from pydicom.dataset import Dataset
 
 from tests.dicom_tools import closed_sockets  # noqa: F401  a fixture
 from tests.procedure.conftest import Server, serving
-from tests.procedure.uploads import dicom_slices, scanned
 from tests.server.dicom_receiver.sending import associated, sent
-from tests.server.imaging.made_ct import BORN, NAME, NUMBER
+from tests.server.imaging.made_ct import BORN, NAME, NUMBER, made_ct
 
 BY = {"made_by": "M. Ito"}
-RECEIVING = {"dicom": {"receive": {"port": 0, "allowed_ae_titles": ["SCANNER"]}}}
+RECEIVE: dict[str, object] = {"port": 0, "allowed_ae_titles": ["SCANNER"]}
+RECEIVING = {"dicom": {"receive": RECEIVE}}
 SUCCESS = 0
 
 
@@ -56,9 +56,9 @@ def open_case(server: Server) -> None:
 
 
 def test_a_received_series_becomes_the_ct_of_the_case(receiving: Server) -> None:
-    send(receiving, dicom_slices(scanned()))
+    send(receiving, made_ct(count=8).slices)
     one = complete(receiving)
-    columns, rows, slices = scanned().shape_ijk
+    columns, rows, slices = 16, 12, 8
     assert (one["files"], one["modality"], one["size_wh_px"]) == (slices, "CT", [columns, rows])
     listed = receiving.door.get("/api/ct/received").text
     assert not [word for word in (NAME.partition("^")[0], BORN, NUMBER) if word in listed]
@@ -73,8 +73,8 @@ def test_a_received_series_becomes_the_ct_of_the_case(receiving: Server) -> None
 
 
 def test_a_series_that_is_rejected_goes_on_waiting(receiving: Server) -> None:
-    slices = dicom_slices(scanned())
-    del slices[10]
+    slices = made_ct(count=8).slices
+    del slices[4]
     send(receiving, slices)
     one = complete(receiving)
     open_case(receiving)
@@ -88,7 +88,7 @@ def test_a_series_that_is_rejected_goes_on_waiting(receiving: Server) -> None:
 
 def test_a_killed_receiver_comes_back_and_half_a_series_cannot_be_taken(receiving: Server) -> None:
     assert receiving.dicom is not None
-    slices = dicom_slices(scanned())
+    slices = made_ct(count=16).slices
     association = associated(port_of(receiving))
     sent(association, slices[:10])
     pid = receiving.dicom.pid
@@ -106,6 +106,17 @@ def test_a_killed_receiver_comes_back_and_half_a_series_cannot_be_taken(receivin
     # The socket was open all the time: the sender waits until the new process answers.
     send(receiving, slices)
     assert complete(receiving)["files"] == len(slices)
+
+
+def test_a_quota_below_one_slice_is_answered_and_told(tmp_path: Path) -> None:
+    receive = {**RECEIVE, "max_gb": 1e-6}
+    with serving(tmp_path / "home", {"dicom": {"receive": receive}}) as server:
+        association = associated(port_of(server))
+        assert sent(association, made_ct(size_wh=(64, 64)).slices[:1]) == [0xA700]
+        association.release()
+        server.until(lambda: server.ask("GET", "/api/ct/received", 200)["remark"] is not None)
+        listed = server.ask("GET", "/api/ct/received", 200)
+        assert (listed["remark"]["code"], listed["series"]) == ("RECEIVE_FULL", [])
 
 
 def test_a_refusal_is_told_with_its_remedy(receiving: Server) -> None:

@@ -23,6 +23,8 @@ from tracker.plan.document import plain
 PRIVATE = 0o700
 DESCRIPTION, FILE = ".json", ".dcm"
 INCOMING = "incoming"
+# Between two pieces of a slice; the receiver ends a silent connection earlier.
+MAX_ARRIVAL_S = 600.0
 
 
 class ReceivedUnknown(NavigationError):
@@ -120,6 +122,11 @@ class Inbox:
     def prepare(self, now_s: float) -> None:
         """Delete what is too old, and measure what waits; before series are received."""
         waiting = self.waiting(now_s)
+        for path in self.incoming.iterdir():
+            # Left by a connection that broke within a slice.
+            with suppress(FileNotFoundError):
+                if now_s - path.stat().st_mtime > MAX_ARRIVAL_S:
+                    path.unlink()
         with self._lock:
             self._sizes = {one.id: one.size_bytes for one in waiting}
 

@@ -1,6 +1,7 @@
 """A CT that is sent waits whole; what is not allowed, broken or no CT is answered and reported."""
 
 import logging
+import os
 import shutil
 import socket
 import ssl
@@ -147,6 +148,16 @@ def test_what_is_too_old_is_deleted(tmp_path: Path) -> None:
         assert sorted(path.name for path in tmp_path.iterdir()) == ["incoming"]
 
 
+def test_what_a_connection_left_within_a_slice_is_deleted(tmp_path: Path) -> None:
+    inbox = Inbox(tmp_path, LIMITS)
+    inbox.clear_incoming()
+    for name, age_s in (("left", 601.0), ("arriving", 30.0)):
+        (inbox.incoming / name).write_bytes(b"half")
+        os.utime(inbox.incoming / name, (1e9 - age_s, 1e9 - age_s))
+    inbox.prepare(1e9)
+    assert [path.name for path in inbox.incoming.iterdir()] == ["arriving"]
+
+
 def test_hostile_bytes_do_not_stop_it(tmp_path: Path) -> None:
     random = np.random.default_rng(1)
     with door(tmp_path) as opened:
@@ -239,10 +250,14 @@ def test_tls_is_required_where_it_is_set_and_slow_handshakes_hold_up_nobody(tmp_
     settings = tls_settings(tmp_path / "own")
     context = ssl.create_default_context(cafile=str(settings.certificate))
     with door(tmp_path / "inbox", settings=settings) as opened:
-        with socket.create_connection(("127.0.0.1", opened.port)):  # says nothing
+        with socket.create_connection(("127.0.0.1", opened.port)) as silent:
             association = associated(opened.port, tls=(context, "127.0.0.1"))
             assert sent(association, made_ct().slices) == [SUCCESS] * 5
             association.release()
+            # It was not waited for until its time was over.
+            silent.setblocking(False)
+            with pytest.raises(BlockingIOError):
+                silent.recv(1)
         assert not associated(opened.port).is_established
         assert opened.described().files == 5
 
