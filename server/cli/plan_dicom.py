@@ -127,7 +127,10 @@ def _surfaces(given: tuple[str, ...], volume: Volume) -> Mapping[str, Surface]:
                 "Give it as --surface L3=bone.stl.",
                 {"surface": text},
             )
-        surface = read_mesh(Path(path)).surface
+        mesh = read_mesh(Path(path))
+        if not mesh.closed:
+            typer.echo(f"Note: the surface of {name} is not closed and is written as a model only.", err=True)
+        surface = mesh.surface
         if not volume.contains(surface.vertices_mm).all():
             raise InvalidInput(
                 "SURFACE_OUTSIDE_CT",

@@ -10,13 +10,14 @@ from pydicom.dataset import Dataset
 from server.imaging.dicom.header import BAD_DICOM, without_warnings
 from server.imaging.dicom_objects.codes import ascii_text, code_of_vertebra
 from server.imaging.dicom_objects.equipment import Equipment
+from server.imaging.dicom_objects.filling import is_closed
 from server.imaging.dicom_objects.model import cylinder, model_object
 from server.imaging.dicom_objects.report import has_measurements, report_object
-from server.imaging.dicom_objects.segmentation_writer import segmentation_object
+from server.imaging.dicom_objects.segmentation_writer import MAX_SHEAR_MM, segmentation_object, sheared_mm
 from server.imaging.dicom_objects.source import EXPORT_AGAIN, SourceSeries
 from tracker.errors import InvalidInput
 from tracker.plan import PlanDocument, Surface
-from tracker.plan.labels import LabelVolume
+from tracker.plan.labels import LabelVolume, level_from_name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,7 +52,8 @@ def plan_objects(
         plan: the plan.
         version: of this program.
         labels: of vertebrae, in the voxels of this CT.
-        surfaces: bone surfaces in LPS mm by the name of their vertebra.
+        surfaces: bone surfaces in LPS mm by the name of their vertebra; closed ones are also segmented,
+            unless the labels have their level or the slices are tilted.
 
     Raises:
         InvalidInput: DICOM_NOTHING_TO_WRITE, DICOM_SEG_TILTED, DICOM_LABELS_OFF_GRID, or
@@ -59,8 +61,10 @@ def plan_objects(
     """
     equipment = Equipment(version=version, source_series_uid=source.series_uid)
     found: list[tuple[str, Dataset]] = []
-    if labels is not None:
-        found.append(("bone", segmentation_object(source, labels, equipment)))
+    closed = _closed(surfaces or {})
+    if labels is not None or (closed and sheared_mm(source) <= MAX_SHEAR_MM):
+        segmentation = segmentation_object(source, labels, closed, equipment)
+        found += [] if segmentation is None else [("bone", segmentation)]
     found += _models(source, plan, surfaces or {}, equipment)
     if has_measurements(plan):
         found.append(("report", report_object(source, plan, equipment)))
@@ -73,6 +77,12 @@ def plan_objects(
             {"vertebrae": len(plan.vertebrae)},
         )
     return tuple(_finished(source, name, dataset) for name, dataset in found)
+
+
+def _closed(surfaces: Mapping[str, Surface]) -> dict[str, Surface]:
+    """Return the surfaces by level that have an inside."""
+    levels = {level_from_name(name): surface for name, surface in surfaces.items()}
+    return {level: one for level, one in levels.items() if level is not None and is_closed(one)}
 
 
 def _models(

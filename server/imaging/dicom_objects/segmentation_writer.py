@@ -1,4 +1,6 @@
-"""Writing of labels as a DICOM Segmentation (PS3.3, A.51), on the slices of the CT."""
+"""Writing of labels and filled surfaces as a DICOM Segmentation (PS3.3, A.51), on the slices of the CT."""
+
+from collections.abc import Mapping
 
 import highdicom as hd
 import numpy as np
@@ -8,28 +10,56 @@ from pydicom.sr.codedict import codes
 
 from server.imaging.dicom_objects.codes import CODE_OF_LEVEL
 from server.imaging.dicom_objects.equipment import Equipment
+from server.imaging.dicom_objects.filling import filled
 from server.imaging.dicom_objects.source import SourceSeries
 from tracker.errors import InvalidInput
+from tracker.plan import Surface
 from tracker.plan.labels import CLASS_OF_LEVEL, LabelVolume
 
 # Many programs stack the frames of a segmentation at right angles whatever their positions are, and draw
 # sheared ones beside the bone. The limit is the shift against a right-angled stack over the whole height.
 MAX_SHEAR_MM = 0.1
 MAX_OFF_GRID_VOXELS = 1e-3
+# How the voxels of a segment came about; labels were made elsewhere.
+OF_LABELS, OF_SURFACE = "labels of another program, resampled", "surface, filled"
 
 
-def segmentation_object(source: SourceSeries, labels: LabelVolume, equipment: Equipment) -> Dataset:
-    """Return a binary segmentation with one segment for each label.
+def sheared_mm(source: SourceSeries) -> float:
+    """Return how far the last slice is shifted against a right-angled stack."""
+    return float(np.tan(np.radians(source.stack.tilt_deg)) * source.stack.spacing_mm * len(source.frames))
+
+
+def segmentation_object(
+    source: SourceSeries, labels: LabelVolume | None, surfaces: Mapping[str, Surface], equipment: Equipment
+) -> Dataset | None:
+    """Return a binary segmentation with one segment for each level; None without any voxel.
+
+    Args:
+        source: the CT.
+        labels: in its voxels.
+        surfaces: closed surfaces by level, for levels without label.
+        equipment: of the export.
 
     Raises:
         InvalidInput: DICOM_SEG_TILTED, DICOM_LABELS_OFF_GRID.
     """
     _check_shear(source)
-    on_slices = _on_slices(source, labels)
+    shape = (len(source.frames), *source.size_wh_px[::-1])
+    on_slices = np.zeros(shape, np.uint8) if labels is None else _on_slices(source, labels)
+    origins = {} if labels is None else dict.fromkeys(labels.levels, OF_LABELS)
+    for level, surface in surfaces.items():
+        if level not in origins:
+            inside = filled(source, surface) & (on_slices == 0)
+            on_slices[inside] = CLASS_OF_LEVEL[level]
+            if inside.any():
+                origins[level] = OF_SURFACE
+    levels = [level for level in CLASS_OF_LEVEL if level in origins]
     used = np.flatnonzero(on_slices.any(axis=(1, 2)))
+    if not used.size:
+        return None
     low, high = int(used[0]), int(used[-1]) + 1
     numbers = np.zeros(256, dtype=np.uint8)
-    for n, level in enumerate(labels.levels, start=1):
+    for n, level in enumerate(levels, start=1):
         numbers[CLASS_OF_LEVEL[level]] = n
     columns, rows = source.stack.lps_from_ijk[:3, 0], source.stack.lps_from_ijk[:3, 1]
     between_columns, between_rows = float(np.linalg.norm(columns)), float(np.linalg.norm(rows))
@@ -39,7 +69,7 @@ def segmentation_object(source: SourceSeries, labels: LabelVolume, equipment: Eq
         pixel_array=numbers[on_slices[low:high]],
         segmentation_type=hd.seg.SegmentationTypeValues.BINARY,
         segment_descriptions=[
-            _description(n, level, equipment) for n, level in enumerate(labels.levels, start=1)
+            _description(n, level, origins[level], equipment) for n, level in enumerate(levels, start=1)
         ],
         pixel_measures=hd.PixelMeasuresSequence(
             pixel_spacing=(between_rows, between_columns),
@@ -57,21 +87,20 @@ def segmentation_object(source: SourceSeries, labels: LabelVolume, equipment: Eq
             for k in range(low, high)
         ],
         content_label="VERTEBRAE",
-        content_description="Labels of vertebrae",
+        content_description="Vertebrae",
         **equipment.of_series("bone", number=9901),
     )
 
 
-def _description(number: int, level: str, equipment: Equipment) -> hd.seg.SegmentDescription:
+def _description(number: int, level: str, origin: str, equipment: Equipment) -> hd.seg.SegmentDescription:
     return hd.seg.SegmentDescription(
         segment_number=number,
         segment_label=level,
         segmented_property_category=codes.SCT.AnatomicalStructure,
         segmented_property_type=CODE_OF_LEVEL[level],
-        # The labels were made elsewhere; Coaxial puts them onto the voxels of the CT.
         algorithm_type=hd.seg.SegmentAlgorithmTypeValues.SEMIAUTOMATIC,
         algorithm_identification=hd.AlgorithmIdentificationSequence(
-            name="labels of another program, resampled",
+            name=origin,
             family=codes.DCM.ManualProcessing,
             version=equipment.version,
         ),
@@ -81,17 +110,15 @@ def _description(number: int, level: str, equipment: Equipment) -> hd.seg.Segmen
 
 
 def _check_shear(source: SourceSeries) -> None:
-    sheared_mm = float(
-        np.tan(np.radians(source.stack.tilt_deg)) * source.stack.spacing_mm * len(source.frames)
-    )
-    if sheared_mm > MAX_SHEAR_MM:
+    by_mm = sheared_mm(source)
+    if by_mm > MAX_SHEAR_MM:
         raise InvalidInput(
             "DICOM_SEG_TILTED",
-            f"the slices are tilted by {source.stack.tilt_deg:.1f} deg and shifted by {sheared_mm:.1f} mm "
+            f"the slices are tilted by {source.stack.tilt_deg:.1f} deg and shifted by {by_mm:.1f} mm "
             f"against a right-angled stack, allowed {MAX_SHEAR_MM:g} mm: many programs would show the "
             "segmentation beside the bone",
             "Write models and report without labels, or use a CT without gantry tilt.",
-            {"tilt_deg": source.stack.tilt_deg, "sheared_mm": sheared_mm, "max_mm": MAX_SHEAR_MM},
+            {"tilt_deg": source.stack.tilt_deg, "sheared_mm": by_mm, "max_mm": MAX_SHEAR_MM},
         )
 
 

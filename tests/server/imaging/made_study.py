@@ -97,10 +97,11 @@ def frames_of_segmentation(one: Dataset) -> list[SegmentFrame]:
             + columns[:, None] * between_columns * direction[0]
             + rows[:, None] * between_rows * direction[1]
         )
+        segment = group if "SegmentIdentificationSequence" in group else shared
         source = group.DerivationImageSequence[0].SourceImageSequence[0]
         frames.append(
             SegmentFrame(
-                level=names[group.SegmentIdentificationSequence[0].ReferencedSegmentNumber],
+                level=names[segment.SegmentIdentificationSequence[0].ReferencedSegmentNumber],
                 points_mm=points,
                 position_mm=position,
                 source_uid=source.ReferencedSOPInstanceUID,

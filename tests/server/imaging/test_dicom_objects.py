@@ -160,6 +160,44 @@ def test_a_bone_surface_is_a_model_too(tmp_path: Path) -> None:
     assert corners == pytest.approx(mesh.triangles, abs=MICROMETRE)
 
 
+@pytest.mark.parametrize("stack", STACKS.values(), ids=STACKS.keys())
+def test_a_closed_surface_is_segmented_where_it_is(tmp_path: Path, stack: dict[str, Any]) -> None:
+    source = source_of(tmp_path, made_study(pixel_mm=(0.75, 0.75), **stack))
+    affine = source.stack.lps_from_ijk
+    middle = affine[:3, :3] @ [11.3, 9.6, 5.4] + affine[:3, 3]
+    mesh = trimesh.creation.box(extents=(7.1, 6.3, 5.9))
+    surface = Surface(vertices_mm=mesh.vertices + middle, faces=mesh.faces)
+    found = written(tmp_path, source, PlanDocument(), surfaces={"L2": surface})
+    points = segmented_points(frames_of_segmentation(found["bone"]), "L2")
+    k, j, i = np.meshgrid(*(np.arange(size) for size in (12, 20, 24)), indexing="ij")
+    every = np.stack([i, j, k], axis=-1).reshape(-1, 3) @ affine[:3, :3].T + affine[:3, 3]
+    truth = every[(np.abs(every - middle) < [3.55, 3.15, 2.95]).all(axis=1)]
+    assert len(truth) > 100
+    assert sorted(points.round(3).tolist()) == sorted(truth.round(3).tolist())
+    (segment,) = found["bone"].SegmentSequence
+    assert segment.SegmentAlgorithmName == "surface, filled"
+    path = tmp_path / "bone.dcm"
+    own = read_segmentation(Entry(size=1, open=lambda: path.open("rb")), {})
+    assert np.count_nonzero(own.labels) == len(truth)
+
+
+def test_labels_take_precedence_and_an_open_surface_or_tilted_slices_give_a_model_only(
+    tmp_path: Path,
+) -> None:
+    source = source_of(tmp_path, made_study())
+    middle = source.stack.lps_from_ijk[:3] @ [11.0, 9.0, 5.0, 1.0]
+    mesh = trimesh.creation.box(extents=(7.1, 6.3, 5.9))
+    surface = Surface(vertices_mm=mesh.vertices + middle, faces=mesh.faces)
+    labels = labels_of(source)
+    both = written(tmp_path, source, PlanDocument(), labels=labels, surfaces={"L3": surface})
+    frames = frames_of_segmentation(both["bone"])
+    assert segmented_points(frames, "L3") == pytest.approx(points_of(labels, "L3"), abs=MICROMETRE)
+    cut = Surface(vertices_mm=surface.vertices_mm, faces=surface.faces[1:])
+    assert set(written(tmp_path, source, PlanDocument(), surfaces={"L3": cut})) == {"L3 bone"}
+    tilted = source_of(tmp_path / "tilted", made_study(**TILTED))
+    assert set(written(tmp_path, tilted, PlanDocument(), surfaces={"L3": surface})) == {"L3 bone"}
+
+
 def items(one: Dataset) -> list[Dataset]:
     """All content items of a report."""
     found = []
