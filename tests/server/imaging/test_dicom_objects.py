@@ -15,6 +15,7 @@ from pydicom.dataset import Dataset
 
 from server.imaging.container import Entry
 from server.imaging.dicom_objects import read_source
+from server.imaging.dicom_objects.filling import filled
 from server.imaging.dicom_objects.source import IDENTITY
 from server.imaging.labels.segmentation import read_segmentation
 from tests.dicom_tools import dicom_tool
@@ -179,6 +180,17 @@ def test_a_closed_surface_is_segmented_where_it_is(tmp_path: Path, stack: dict[s
     path = tmp_path / "bone.dcm"
     own = read_segmentation(Entry(size=1, open=lambda: path.open("rb")), {})
     assert np.count_nonzero(own.labels) == len(truth)
+
+
+def test_a_row_of_voxels_through_an_edge_is_filled_once(tmp_path: Path) -> None:
+    source = source_of(tmp_path, made_study(pixel_mm=(1.0, 1.0), spacing_mm=1.0))
+    # The diagonals of the two faces across the rows pass through centres of voxels.
+    middle = source.stack.lps_from_ijk[:3] @ [11.5, 7.5, 5.5, 1.0]
+    mesh = trimesh.creation.box(extents=(6.0, 4.0, 4.0))
+    inside = filled(source, Surface(vertices_mm=mesh.vertices + middle, faces=mesh.faces))
+    truth = np.zeros_like(inside)
+    truth[4:8, 6:10, 9:15] = True
+    assert np.array_equal(inside, truth)
 
 
 def test_labels_take_precedence_and_an_open_surface_or_tilted_slices_give_a_model_only(
