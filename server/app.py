@@ -40,6 +40,7 @@ from server.api.placements import placements_router
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.readout import readout_router
+from server.api.received import received_router
 from server.api.recording_review import recording_review_router, review_scenes_router
 from server.api.recordings import recording_exports_router, recordings_router
 from server.api.registration import registration_router
@@ -53,6 +54,7 @@ from server.api.sweep import sweep_router
 from server.api.tools import tools_router
 from server.capture.address import source_from_text
 from server.config import Config
+from server.dicom_receiver import DicomReceiver
 from server.installation import product_version
 from server.jobs import Jobs
 from server.live import LiveHub, Problem
@@ -105,6 +107,7 @@ class AppParts:
         openigtlink: Listening socket of OpenIGTLink; None if it is off.
         recordings: Recordings of the open case; None without them.
         sinks: Plug-ins that receive each message; None without them.
+        dicom: Receiver of CTs; None if it is off.
     """
 
     hub: LiveHub
@@ -121,6 +124,7 @@ class AppParts:
     openigtlink: socket.socket | None = None
     recordings: RecordingService | None = None
     sinks: Sinks | None = None
+    dicom: DicomReceiver | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
@@ -301,6 +305,7 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         )
         app.include_router(accuracy_router(parts.steps.accuracy, parts.store.home))
         app.include_router(ct_router(parts.steps.ct, parts.steps.ct_provider, parts.store.home))
+        app.include_router(received_router(parts.steps.ct, parts.dicom))
         app.include_router(navigation_ct_router(parts.steps.navigation_ct))
         app.include_router(placements_router(parts.steps.placement))
         app.include_router(

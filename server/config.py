@@ -323,6 +323,50 @@ class OpenIgtLinkConfig(Section):
     """Names of tools in message names, at most 10 characters; default: the name of the tool."""
 
 
+AeTitle: TypeAlias = Annotated[str, StringConstraints(pattern=r"^[!-\[\]-~]([ -\[\]-~]{0,14}[!-\[\]-~])?$")]
+
+
+class DicomArchiveConfig(Section):
+    """The archive that `coaxial plan send` sends to."""
+
+    host: Annotated[str, StringConstraints(min_length=1)] | None = None
+    port: Annotated[int, Field(ge=1, le=65535)] = 104
+    ae_title: AeTitle = "ARCHIVE"
+    tls: bool = False
+    ca: FilePath | None = None
+    """PEM with the authority of the archive's certificate; default: those of this system."""
+
+
+class DicomReceiveConfig(Section):
+    """Reception of CTs from scanners and archives (C-STORE)."""
+
+    port: Annotated[int, Field(ge=0, le=65535)] | None = None
+    """11112 is usual, 0 selects a free port; default: off."""
+    host: Annotated[str, StringConstraints(min_length=1)] = "127.0.0.1"
+    allowed_ae_titles: list[AeTitle] = []
+    """AE titles of those who may send; at least one."""
+    tls: bool = False
+    """With the certificate of `server.tls`, or a self-signed one."""
+    client_ca: FilePath | None = None
+    """PEM with the authority of the certificates that senders must have; default: they need none."""
+    unencrypted: Literal["anybody on this network reads the patients' data"] | None = None
+    """Exactly this text allows a host that is not loopback without TLS."""
+    max_gb: Annotated[float, Field(gt=0.0, le=1000.0)] = 10
+    """All series that wait."""
+    max_series: Annotated[int, Field(ge=1, le=1000)] = 20
+    max_age_h: Annotated[float, Field(gt=0.0, le=720.0)] = 24
+    """Since the last slice of a series, after which it is deleted."""
+
+
+class DicomConfig(Section):
+    """DICOM network."""
+
+    ae_title: AeTitle = "COAXIAL"
+    """Own AE title."""
+    receive: DicomReceiveConfig = DicomReceiveConfig()
+    archive: DicomArchiveConfig = DicomArchiveConfig()
+
+
 class CosignConfig(Section):
     """Documents that a second person signs. required: navigation waits for it; offered: it is optional.
 
@@ -412,5 +456,6 @@ class Config(Section):
     plan: PlanConfig = PlanConfig()
     video: VideoConfig = VideoConfig()
     openigtlink: OpenIgtLinkConfig = OpenIgtLinkConfig()
+    dicom: DicomConfig = DicomConfig()
     recording: RecordingConfig = RecordingConfig()
     plugins: PluginsConfig = PluginsConfig()

@@ -250,7 +250,14 @@ def _with_absolute_paths(config: Config, *, folder: Path, origins: Mapping[Key, 
         if path is not None
     }
     server = config.server.model_copy(update={"tls": tls.model_copy(update=files)})
+    archive, receive = config.dicom.archive, config.dicom.receive
+    if archive.ca is not None:
+        archive = archive.model_copy(update={"ca": resolved(archive.ca, ("dicom", "archive", "ca"))})
+    if receive.client_ca is not None:
+        file = resolved(receive.client_ca, ("dicom", "receive", "client_ca"))
+        receive = receive.model_copy(update={"client_ca": file})
     updated = {
+        "dicom": config.dicom.model_copy(update={"archive": archive, "receive": receive}),
         "server": server,
         "camera": camera.model_copy(update=changes),
         "markers": markers,
@@ -276,6 +283,15 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
         mistakes.append(
             Mistake(where=where.of(("camera", "trigger")), key="camera.trigger", sentence=sentence)
         )
+    receive = config.dicom.receive
+    if receive.port is not None and not receive.allowed_ae_titles:
+        key = "dicom.receive.allowed_ae_titles"
+        sentence = f"'{key}' is empty, but 'dicom.receive.port' is set, allowed: at least one AE title"
+        mistakes.append(Mistake(where=where.of(("dicom", "receive")), key=key, sentence=sentence))
+    if receive.client_ca is not None and not receive.tls:
+        key = "dicom.receive.client_ca"
+        sentence = f"'{key}' is given, but 'dicom.receive.tls' is false, allowed: with TLS only"
+        mistakes.append(Mistake(where=where.of(("dicom", "receive")), key=key, sentence=sentence))
     known = set(config.markers)
     if source_from_text(camera.source).kind is SourceKind.REHEARSAL:
         taken = [("markers", "drill"), ("tools", "drill")]

@@ -1,4 +1,4 @@
-"""The commands `coaxial plan measure`, `labels`, `markups` and `series`."""
+"""The commands `coaxial plan measure`, `labels`, `markups`, `dicom`, `send` and `series`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 plan_app = typer.Typer(
-    help="Plan on a CT: list its series, measure a pedicle, check labels, write a plan for 3D Slicer.",
+    help="List series of a CT, measure pedicles, check labels, write a plan for 3D Slicer or as DICOM.",
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -14,7 +14,7 @@ plan_app = typer.Typer(
 
 @plan_app.callback()
 def plan() -> None:
-    """Plan on a CT: list its series, measure a pedicle, check labels, write a plan for 3D Slicer."""
+    """List series of a CT, measure pedicles, check labels, write a plan for 3D Slicer or as DICOM."""
 
 
 @plan_app.command()
@@ -106,6 +106,77 @@ def markups(
     from server.cli.plan_markups import write_plan_markups  # noqa: PLC0415  loaded when needed
 
     write_plan_markups(plan, output)
+
+
+PlanFileArgument = Annotated[Path, typer.Argument(help="A plan exported from the page.", metavar="PLAN.JSON")]
+SlicesArgument = Annotated[Path, typer.Argument(help="Folder or zip of the CT's DICOM slices.", metavar="CT")]
+LabelsOption = Annotated[
+    Path | None, typer.Option(help="Labels of vertebrae, as for 'coaxial plan labels'.", metavar="LABELS")
+]
+NamesOption = Annotated[
+    str, typer.Option(help="Levels of labels that the file does not name.", metavar="29:L3,28:L4")
+]
+SurfaceOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        help="Bone surface (STL, OBJ, PLY) of a vertebra, in LPS mm; repeatable.", metavar="L3=BONE.STL"
+    ),
+]
+SeriesOption = Annotated[
+    str | None,
+    typer.Option(help="Series to read if CT contains several; see 'coaxial plan series'.", metavar="ID"),
+]
+
+
+@plan_app.command()
+def dicom(
+    plan: PlanFileArgument,
+    ct: SlicesArgument,
+    output: Annotated[Path, typer.Option(help="Folder for the DICOM files.", metavar="FOLDER")],
+    labels: LabelsOption = None,
+    names: NamesOption = "",
+    surface: SurfaceOption = None,
+    series: SeriesOption = None,
+) -> None:
+    """Write a plan as DICOM objects of the CT's study: labels (SEG), models (STL) and measurements (SR).
+
+    They contain the patient's name and ID of the CT, because an archive files them with it.
+    """
+    from server.cli.plan_dicom import DicomOptions, write_plan_dicom  # noqa: PLC0415  loaded when needed
+
+    write_plan_dicom(
+        DicomOptions(
+            plan=plan,
+            ct=ct,
+            output=output,
+            labels=labels,
+            names=names,
+            surfaces=tuple(surface or ()),
+            series=series,
+        )
+    )
+
+
+@plan_app.command()
+def send(
+    plan: PlanFileArgument,
+    ct: SlicesArgument,
+    labels: LabelsOption = None,
+    names: NamesOption = "",
+    surface: SurfaceOption = None,
+    series: SeriesOption = None,
+    config: Annotated[
+        Path | None,
+        typer.Option(help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
+    ] = None,
+) -> None:
+    """Send the DICOM objects of a plan to the archive of the settings (dicom.archive), in the CT's study."""
+    from server.cli.plan_dicom import DicomOptions, send_plan_dicom  # noqa: PLC0415  loaded when needed
+
+    options = DicomOptions(
+        plan=plan, ct=ct, labels=labels, names=names, surfaces=tuple(surface or ()), series=series
+    )
+    send_plan_dicom(options, config)
 
 
 @plan_app.command()

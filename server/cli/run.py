@@ -6,6 +6,8 @@ import socket
 import sys
 from collections.abc import Callable
 from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import structlog
@@ -18,9 +20,10 @@ from server.errors import ConfigError
 from server.installation import product_version
 from server.logs import LogSettings, configure_logging
 from server.security.addresses import link_name
-from server.security.tls import reject_unsafe
+from server.security.tls import reject_unsafe, select_dicom_tls
 
 if TYPE_CHECKING:
+    from server.dicom_receiver import DicomReceiver
     from server.loop.rehearsal_control import RehearsalControl
     from server.loop.tracking_system import TrackingSystem
     from server.setup import CaseSetup, Preparation
@@ -30,6 +33,8 @@ BACKLOG = 128
 PORT_REMEDY = "Stop the program that uses this port, or choose another port with --port or COAXIAL_PORT."
 HOST_REMEDY = "Set server.host to an address of this computer, for example 127.0.0.1."
 LINK_PORT_REMEDY = "Stop the program that uses this port, or set openigtlink.port to another port."
+DICOM_PORT_REMEDY = "Stop the program that uses this port, or set dicom.receive.port to another port."
+DICOM_HOST_REMEDY = "Set dicom.receive.host to an address of this computer, for example 127.0.0.1."
 LINK_HOST_REMEDY = "Set openigtlink.host to an address of this computer, for example 127.0.0.1."
 log = structlog.get_logger(__name__)
 
@@ -48,15 +53,23 @@ def run_dashboard(
         configure_logging(settings)
         reject_unsafe(config)
         listener = _listener(config.server.host, config.server.port)
-        link = _link_listener(config)
-        _serve(config, settings, listener, link, stopping, new_operator_link=new_operator_link)
+        doors = _Doors(web=listener, link=_link_listener(config), dicom=_dicom_listener(config))
+        _serve(config, settings, doors, stopping, new_operator_link=new_operator_link)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Doors:
+    """Listening sockets; None for what is off."""
+
+    web: socket.socket
+    link: socket.socket | None
+    dicom: socket.socket | None
 
 
 def _serve(
     config: Config,
     settings: LogSettings,
-    listener: socket.socket,
-    link: socket.socket | None,
+    doors: _Doors,
     stopping: StopSignal,
     *,
     new_operator_link: bool,
@@ -113,6 +126,10 @@ def _serve(
         ending.callback(recordings.close)
         sinks = Sinks(config.plugins.sinks, tracked.hub, settings)
         ending.callback(sinks.stop)
+        receiver = _dicom_receiver(config, doors.dicom, storage.store.home.folder, settings)
+        if receiver is not None:
+            ending.callback(receiver.stop)
+            receiver.start()
         app = create_app(
             AppParts(
                 hub=tracked.hub,
@@ -127,8 +144,9 @@ def _serve(
                 recordings=recordings,
                 phone=phone,
                 rehearsed=_rehearsed(config, preparation, tracked),
-                openigtlink=link,
+                openigtlink=doors.link,
                 sinks=sinks,
+                dicom=receiver,
             )
         )
         recordings.follow()
@@ -140,9 +158,9 @@ def _serve(
         )
         serve_until(
             app,
-            listener,
+            doors.web,
             stopping,
-            on_ready=lambda: _ready(listener, link, access.startup_lines),
+            on_ready=lambda: _ready(doors, access.startup_lines),
             tls=access.tls,
         )
 
@@ -192,20 +210,36 @@ def _rehearsed(
     return RehearsalControl(config.rehearsal, play=tracked.play, played_scene=lambda: tracked.played_scene)
 
 
-def _ready(
-    listener: socket.socket, link: socket.socket | None, lines_for: Callable[[str], list[str]]
-) -> None:
+def _dicom_receiver(
+    config: Config, listener: socket.socket | None, home: Path, settings: LogSettings
+) -> "DicomReceiver | None":
+    """Return the receiver of CTs; None if it is off."""
+    from server.cli.access_control import SECURITY_FOLDER  # noqa: PLC0415
+    from server.dicom_receiver import DicomReceiver, delete_received  # noqa: PLC0415
+
+    if listener is None:
+        delete_received(home)
+        return None
+    tls = select_dicom_tls(config, home / SECURITY_FOLDER)
+    certificate = None if tls is None else (tls.certificate, tls.key)
+    return DicomReceiver.of(config.dicom, listener, home=home, certificate=certificate, log_settings=settings)
+
+
+def _ready(doors: _Doors, lines_for: Callable[[str], list[str]]) -> None:
     """Print the addresses of the server and how to sign in, and enable garbage collection."""
     # A full collection of all modules takes a tenth of a second, in which no figures are sent.
     gc.freeze()
     gc.enable()
     typer.echo(f"Coaxial {product_version()} · research software, not a medical device")
-    host, port = listener.getsockname()[:2]
+    host, port = doors.web.getsockname()[:2]
     for line in lines_for(f"{link_name(host)}:{port}"):
         typer.echo(line)
-    if link is not None:
-        host, port = link.getsockname()[:2]
+    if doors.link is not None:
+        host, port = doors.link.getsockname()[:2]
         typer.echo(f"OpenIGTLink: {link_name(host)}:{port}, without sign-in or encryption")
+    if doors.dicom is not None:
+        host, port = doors.dicom.getsockname()[:2]
+        typer.echo(f"DICOM: {link_name(host)}:{port} receives CTs")
     typer.echo("Press Ctrl+C to stop")
     sys.stdout.flush()
 
@@ -216,6 +250,14 @@ def _link_listener(config: Config) -> socket.socket | None:
     if link.port is None:
         return None
     return _listener(link.host, link.port, port_remedy=LINK_PORT_REMEDY, host_remedy=LINK_HOST_REMEDY)
+
+
+def _dicom_listener(config: Config) -> socket.socket | None:
+    """Return the listening socket for DICOM; None if it is off."""
+    receive = config.dicom.receive
+    if receive.port is None:
+        return None
+    return _listener(receive.host, receive.port, port_remedy=DICOM_PORT_REMEDY, host_remedy=DICOM_HOST_REMEDY)
 
 
 def _listener(

@@ -102,6 +102,7 @@ GET     /api/markers/{name}/picture
 GET     /api/tools
 GET     /api/tools/collection
 GET     /api/ct
+GET     /api/ct/received
 GET     /api/ct/uploads/{upload_id}/preview.png
 GET     /api/ct/slices/{plane}.png
 GET     /api/ct/slices/{plane}
@@ -150,6 +151,8 @@ DELETE  /api/supervision/signatures/{signature_id}
 """
 
 DONE_BY_OPERATORS = """
+POST    /api/ct/received/{series_id}
+DELETE  /api/ct/received/{series_id}
 POST    /api/people/invitations
 DELETE  /api/people/invitations/{invitation_id}
 DELETE  /api/people/sessions/{session_id}

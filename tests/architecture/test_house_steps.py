@@ -106,6 +106,14 @@ def test_a_browser_on_the_path_is_found(bare_path: Path) -> None:
     assert step("find-chromium", path=bare_path).stdout.strip() == str(bare_path / "chromium-headless-shell")
 
 
+def test_programs_for_dicom_are_taken_from_the_path_or_said_to_be_missing(bare_path: Path) -> None:
+    assert "dcmtk and orthanc" in step("find-dicom-tools", path=bare_path).stderr
+    for program in ("dsrdump", "Orthanc"):
+        put(bare_path, program, "exit 0")
+    said = step("find-dicom-tools", path=bare_path)
+    assert (said.returncode, said.stderr) == (0, "")
+
+
 @pytest.mark.parametrize(
     ("version", "taken"),
     [
@@ -212,7 +220,7 @@ def stands_ready(folder: Path, fails: str) -> None:
     for program in ("python", "lint-imports", "pyrefly"):
         put(folder / ".venv" / "bin", program, called)
     put(folder / ".make", "step", 'shift 3; exec "$@"')
-    for program in ("with-node", "find-chromium", "run-tests"):
+    for program in ("with-node", "find-chromium", "find-dicom-tools", "run-tests"):
         put(folder / ".make", program, called)
     for name in STEPS_THAT_PASS:
         (folder / ".venv" / "stamps" / name).write_text(f"{folder.resolve()}\n")

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import socket
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
@@ -16,6 +17,7 @@ from fastapi.testclient import TestClient
 
 from server.app import AppParts, create_app
 from server.config import Config
+from server.dicom_receiver import DicomReceiver
 from server.jobs import Jobs
 from server.live import CameraStatus, Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.logs import LogSettings
@@ -48,6 +50,7 @@ class Server:
     adopted: list[CaseSetup]
     tracked_from_s: list[float]
     steps: Steps
+    dicom: DicomReceiver | None = None
     number: int = field(default=0)
 
     def ask(self, method: str, path: str, status: int, **sent: Any) -> Any:  # noqa: ANN401  JSON
@@ -116,6 +119,14 @@ def _prepared(config: str) -> Preparation:
     return build_setup(Config.model_validate_json(config))
 
 
+def _receiver(config: Config, home: Home) -> DicomReceiver:
+    listener = socket.create_server(("127.0.0.1", 0))
+    log = LogSettings(as_json=True)
+    receiver = DicomReceiver.of(config.dicom, listener, home=home.folder, certificate=None, log_settings=log)
+    receiver.start()
+    return receiver
+
+
 @contextmanager
 def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> Iterator[Server]:
     """All parts of a server with this home folder."""
@@ -135,8 +146,17 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
             tracking=TrackingLink(publish_setup=adopted.append, tracked_from_s=lambda: tracked_from_s[-1]),
         )
         recordings = recordings_without_process(store, config)
+        dicom = _receiver(config, home) if config.dicom.receive.port is not None else None
         app = create_app(
-            AppParts(hub=hub, config=config, store=store, jobs=jobs, steps=steps, recordings=recordings)
+            AppParts(
+                hub=hub,
+                config=config,
+                store=store,
+                jobs=jobs,
+                steps=steps,
+                recordings=recordings,
+                dicom=dicom,
+            )
         )
         with TestClient(app, base_url="http://127.0.0.1:8000", raise_server_exceptions=False) as door:
             yield Server(
@@ -148,7 +168,10 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
                 adopted=adopted,
                 tracked_from_s=tracked_from_s,
                 steps=steps,
+                dicom=dicom,
             )
+        if dicom is not None:
+            dicom.stop()
         jobs.close()
 
 

@@ -122,6 +122,19 @@ TOOL = {
             id="product-line-with-a-size-of-no-screw",
         ),
         pytest.param(
+            {"dicom": {"receive": {"port": 11112}}},
+            ["'dicom.receive.allowed_ae_titles' is empty", "at least one AE title"],
+            id="dicom-from-nobody",
+        ),
+        pytest.param(
+            {"dicom": {"receive": {"client_ca": "ca.pem"}}},
+            ["'dicom.receive.client_ca'", "with TLS only"],
+            id="certificates-of-senders-without-tls",
+        ),
+        pytest.param(
+            {"dicom": {"ae_title": "SEVENTEEN_LETTERS"}}, ["dicom.ae_title"], id="too-long-an-ae-title"
+        ),
+        pytest.param(
             {"rehearsal": {"events": [{"kind": "earthquake", "at_s": 1}]}},
             ["earthquake", "camera_moves or patient_moves"],
             id="no-such-event",

@@ -29,18 +29,8 @@ def read_dicom(
 ) -> Ct:
     """Return the requested series, or the only CT, as Hounsfield units in LPS mm."""
     found = group_frames_by_series(container, lambda _done, _of: None)
-    every = [frame for frames in found.values() for frame in frames]
-    check_one_patient(every, what="the folder")
-    frames = choose(found, series)
-    check_consistency(frames)
+    frames, stack = checked_series(found, series)
     columns, rows = frames[0].shared.size_wh_px
-    stack = stack_slices(
-        positions_lps_mm=np.array([frame.position_lps_mm for frame in frames]),
-        directions=np.array([frame.directions for frame in frames]).reshape(-1, 2, 3),
-        # DICOM states the distance between rows first.
-        pixels_mm=np.array([frame.pixel_mm for frame in frames])[:, ::-1],
-        size_wh_px=(columns, rows),
-    )
     with voxels_to_fill((len(stack.slices), rows, columns), into) as voxels:
         beyond = _fill(voxels, frames, stack, progress, first)
         reject_beyond(beyond, voxels.hu.size)
@@ -68,6 +58,20 @@ def read_dicom(
         series=description,
         warnings=tuple(warnings),
         left_out=container.left_out,
+    )
+
+
+def checked_series(found: dict[str, list[Frame]], series: str | None) -> tuple[list[Frame], Stack]:
+    """Return the slices of the requested series, or of the only CT, with their common geometry."""
+    check_one_patient([frame for frames in found.values() for frame in frames], what="the folder")
+    frames = choose(found, series)
+    check_consistency(frames)
+    return frames, stack_slices(
+        positions_lps_mm=np.array([frame.position_lps_mm for frame in frames]),
+        directions=np.array([frame.directions for frame in frames]).reshape(-1, 2, 3),
+        # DICOM states the distance between rows first.
+        pixels_mm=np.array([frame.pixel_mm for frame in frames])[:, ::-1],
+        size_wh_px=frames[0].shared.size_wh_px,
     )
 
 

@@ -171,13 +171,18 @@ def _class_of(segment: Dataset) -> int:
 def _frames(dataset: Dataset, classes: Mapping[int, int]) -> list[_SegmentFrame]:
     """Return the frames of vertebrae."""
     found = []
+    shared = [*(dataset.get("SharedFunctionalGroupsSequence") or [])]
     for index, group in enumerate(dataset.PerFrameFunctionalGroupsSequence):
-        segment_number = int(number(group.SegmentIdentificationSequence[0], "ReferencedSegmentNumber", 0))
+        # What all frames have in common, such as their only segment, may be stated once.
+        groups = [group, *shared]
+        segment_number = int(
+            (_first(groups, "SegmentIdentificationSequence", "ReferencedSegmentNumber", 1) or (0,))[0]
+        )
         class_number = classes.get(segment_number, 0)
         if class_number == 0:
             continue
-        position = numbers(group.PlanePositionSequence[0], "ImagePositionPatient", 3)
-        if not position or not np.isfinite(position).all() or np.abs(position).max() > 1e5:
+        position = _first(groups, "PlanePositionSequence", "ImagePositionPatient", 3)
+        if not position or np.abs(position).max() > 1e5:
             raise _unreadable("a frame has no position")
         found.append(_SegmentFrame(index=index, class_number=class_number, position_mm=np.array(position)))
     if not found:

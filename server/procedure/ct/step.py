@@ -9,10 +9,12 @@ import secrets
 import shutil
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from server.imaging.dicom_network.inbox import Inbox, ReceivedUnknown
 from server.jobs import Job, Jobs
 from server.planning.ct import PREVIEW, VOXELS, read_upload
 from server.procedure.open_case import require_open_case
@@ -55,6 +57,7 @@ class _Upload:
     working: Path
     is_pending: bool
     began_s: float
+    on_stored: Callable[[], None] | None = None
     job_id: str = ""
 
 
@@ -90,13 +93,41 @@ class CtStep:
             SetupOrderError: NO_CASE_OPEN.
             StoreError: STORE_FULL, STORE_READ_ONLY or STORE_FAILED.
         """
+        return self._take(path.replace, made_by=made_by)
+
+    def take(self, inbox: Inbox, series_id: str, *, made_by: str) -> CtUpload:
+        """Start a job that reads a received series as the CT of the open case; it waits until that is stored.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN.
+            ReceivedUnknown: RECEIVED_UNKNOWN.
+            InvalidInput: RECEIVED_NOT_COMPLETE.
+            StoreError: STORE_FULL, STORE_READ_ONLY or STORE_FAILED.
+        """
+
+        def discard() -> None:
+            with suppress(ReceivedUnknown):
+                inbox.discard(series_id)
+
+        return self._take(
+            lambda upload: inbox.link_into(series_id, upload), made_by=made_by, on_stored=discard
+        )
+
+    def _take(
+        self,
+        fill: Callable[[Path], object],
+        *,
+        made_by: str,
+        on_stored: Callable[[], None] | None = None,
+    ) -> CtUpload:
+        """Start to read what `fill` puts at a path."""
         case = require_open_case(self._store)
         self._forget_old()
         upload_id = secrets.token_hex(8)
         folder = self._store.home.new_temporary(".ct")
         with translate_errors(self._store.home.folder):
             folder.mkdir()
-            path.replace(folder / UPLOAD)
+            fill(folder / UPLOAD)
         upload = _Upload(
             id=upload_id,
             case_id=case.id,
@@ -105,6 +136,7 @@ class CtStep:
             working=folder,
             is_pending=False,
             began_s=time.monotonic(),
+            on_stored=on_stored,
         )
         return self._read(upload, series=None)
 
@@ -172,6 +204,8 @@ class CtStep:
             made_by=upload.made_by,
             files=[new.stored.id],
         )
+        if upload.on_stored is not None:
+            upload.on_stored()
         self._forget(upload)
         return {"document_id": document.id, "version": document.version, **content}
 

@@ -38,7 +38,7 @@ def reject_unsafe(config: Config) -> None:
     """Reject unsafe settings; call it before anything is started.
 
     Raises:
-        ConfigError: SIGN_IN_NEEDED, TLS_HALF, OPENIGTLINK_UNENCRYPTED.
+        ConfigError: SIGN_IN_NEEDED, TLS_HALF, OPENIGTLINK_UNENCRYPTED, DICOM_UNENCRYPTED.
     """
     host, tls = config.server.host, config.server.tls
     if config.security.sign_in == "off" and not is_loopback(_bracketed(host)):
@@ -66,6 +66,17 @@ def reject_unsafe(config: Config) -> None:
             "Set openigtlink.host to 127.0.0.1, or openigtlink.unencrypted to exactly 'anybody who reaches "
             "this port reads the poses'.",
             {"host": link.host},
+        )
+    receive = config.dicom.receive
+    is_plain = not receive.tls and receive.unencrypted is None
+    if receive.port is not None and is_plain and not is_loopback(_bracketed(receive.host)):
+        raise ConfigError(
+            "DICOM_UNENCRYPTED",
+            f"other computers can reach dicom.receive.host {receive.host}, but dicom.receive.tls is false: "
+            "CTs would cross the network readable to anybody",
+            "Set dicom.receive.tls to true, or dicom.receive.unencrypted to exactly 'anybody on this network "
+            "reads the patients' data'.",
+            {"host": receive.host},
         )
     cosign = config.supervision.cosign
     if config.security.sign_in == "off" and "required" in (cosign.plan, cosign.registration):
@@ -102,10 +113,29 @@ def select_tls(config: Config, folder: Path) -> Tls | None:
         return _own(server.tls.certificate, server.tls.key)
     if is_loopback(_bracketed(server.host)) or server.behind_proxy == PROXY_SPEAKS_TLS:
         return None
+    return _self_signed(folder, server.host)
+
+
+def select_dicom_tls(config: Config, folder: Path) -> Tls | None:
+    """Return the certificate to receive DICOM with; None without TLS.
+
+    Raises:
+        ConfigError: CERTIFICATE_UNUSABLE.
+        OSError: the self-signed one cannot be stored.
+    """
+    given, receive = config.server.tls, config.dicom.receive
+    if not receive.tls:
+        return None
+    if given.certificate is not None and given.key is not None:
+        return _own(given.certificate, given.key)
+    return _self_signed(folder / "dicom", receive.host)
+
+
+def _self_signed(folder: Path, host: str) -> Tls:
     # Imported on demand: most servers listen on loopback.
     from server.security.tls.self_signed import load_or_create  # noqa: PLC0415
 
-    made = load_or_create(folder, host=server.host)
+    made = load_or_create(folder, host=host)
     return Tls(
         certificate=made.certificate,
         key=made.key,

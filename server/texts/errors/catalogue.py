@@ -6,6 +6,7 @@ from server.texts.errors.access import ACCESS
 from server.texts.errors.camera import CAMERA
 from server.texts.errors.cases import CASES
 from server.texts.errors.certificate import CERTIFICATE
+from server.texts.errors.dicom import DICOM
 from server.texts.errors.labels import LABELS
 from server.texts.errors.procedure import PROCEDURE
 from server.texts.errors.process import PROCESS
@@ -38,6 +39,7 @@ _PARTS = (
     RECORDINGS,
     CASES,
     LABELS,
+    DICOM,
     ACCESS,
     CERTIFICATE,
     REMARKS,

@@ -23,7 +23,7 @@ from server.app import AppParts, create_app
 from server.config import Config
 from server.errors import ConfigError
 from server.live import LiveHub
-from server.security.tls import handshake, reject_unsafe, select_tls, self_signed
+from server.security.tls import handshake, reject_unsafe, select_dicom_tls, select_tls, self_signed
 from server.security.tls.selection import PROXY_SPEAKS_TLS
 from server.security.tls.self_signed import load_or_create
 from tests.served import served
@@ -80,6 +80,31 @@ def test_poses_leave_this_computer_unencrypted_only_where_the_settings_say_so_in
         reject_unsafe(Config.model_validate({"openigtlink": allowed}))
     with pytest.raises(ValueError, match="unencrypted"):
         Config.model_validate({"openigtlink": {**shared, "unencrypted": "yes"}})
+
+
+def test_cts_arrive_unencrypted_only_where_the_settings_say_so_in_words() -> None:
+    shared = {"port": 11112, "host": "192.0.2.1"}
+    with pytest.raises(ConfigError) as reported:
+        reject_unsafe(Config.model_validate({"dicom": {"receive": shared}}))
+    assert reported.value.code == "DICOM_UNENCRYPTED"
+    said = {**shared, "unencrypted": "anybody on this network reads the patients' data"}
+    for allowed in (said, {**shared, "tls": True}, {**shared, "port": None}, {"port": 11112}):
+        reject_unsafe(Config.model_validate({"dicom": {"receive": allowed}}))
+
+
+def test_dicom_has_the_certificate_of_the_server_or_one_of_its_own(
+    tmp_path: Path, own: dict[str, Path]
+) -> None:
+    plain = Config.model_validate({"dicom": {"receive": {"port": 11112}}})
+    assert select_dicom_tls(plain, tmp_path) is None
+    receive = {"dicom": {"receive": {"port": 11112, "tls": True}}}
+    made = select_dicom_tls(Config.model_validate(receive), tmp_path)
+    assert made is not None
+    assert made.is_self_signed
+    files = {part: own[part] for part in ("certificate", "key")}
+    given = select_dicom_tls(Config.model_validate({**receive, "server": {"tls": files}}), tmp_path)
+    assert given is not None
+    assert given.certificate == own["certificate"]
 
 
 @pytest.mark.parametrize("what", ["plan", "registration"])

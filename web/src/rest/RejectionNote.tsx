@@ -24,6 +24,7 @@ export function RejectionNote({ rejection }: { rejection: Rejection | null }): R
   );
 }
 
-function sentence(message: string): string {
+/** A message with a capital letter. */
+export function sentence(message: string): string {
   return message.charAt(0).toUpperCase() + message.slice(1);
 }

@@ -4,6 +4,7 @@ from server.texts.errors.remedies.access import ACCESS
 from server.texts.errors.remedies.camera import CAMERA
 from server.texts.errors.remedies.cases import CASES
 from server.texts.errors.remedies.certificate import CERTIFICATE
+from server.texts.errors.remedies.dicom import DICOM
 from server.texts.errors.remedies.labels import LABELS
 from server.texts.errors.remedies.procedure import PROCEDURE
 from server.texts.errors.remedies.process import PROCESS
@@ -23,6 +24,7 @@ REMEDIES: tuple[Text, ...] = (
     *RECORDINGS,
     *CASES,
     *LABELS,
+    *DICOM,
     *ACCESS,
     *CERTIFICATE,
 )

@@ -68,6 +68,8 @@ export const auditDe: AuditTexts = {
     "POST /api/tools/collection/conclusion":
       "Hat die Kalibrierung oder Prüfung eines Instruments gespeichert",
     "POST /api/ct": "Hat ein CT gesendet",
+    "POST /api/ct/received/{series_id}": "Hat eine empfangene CT-Serie übernommen",
+    "DELETE /api/ct/received/{series_id}": "Hat eine empfangene CT-Serie verworfen",
     "POST /api/ct/uploads/{upload_id}/series/{series}": "Hat eine CT-Serie gewählt",
     "POST /api/ct/probe": "Hat einen Grauwert im CT gelesen",
     "PUT /api/plan": "Hat die Planung ersetzt",

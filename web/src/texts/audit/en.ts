@@ -65,6 +65,8 @@ export const auditEn = {
     "DELETE /api/tools/collection": "Ended work on a tool",
     "POST /api/tools/collection/conclusion": "Saved a tool calibration or check",
     "POST /api/ct": "Sent a CT",
+    "POST /api/ct/received/{series_id}": "Took a received CT series",
+    "DELETE /api/ct/received/{series_id}": "Discarded a received CT series",
     "POST /api/ct/uploads/{upload_id}/series/{series}": "Chose a series of the CT",
     "POST /api/ct/probe": "Read a grey value of the CT",
     "PUT /api/plan": "Replaced the plan",

@@ -19,6 +19,17 @@ export const slicesDe: SlicesTexts = {
         "Planung, Oberfläche und alle Registrierungen auf dem jetzigen CT können nicht mehr verwendet werden, und eine laufende Navigation wird angehalten. Sie bleiben im Fall und können angesehen werden. Die Planung lässt sich danach übernehmen.",
       agree: "Verstanden, anderes CT senden",
     },
+    received: {
+      title: "Über DICOM empfangen",
+      none: "Es wartet keine Serie.",
+      address: "Ein Scanner oder Archiv kann senden an",
+      minutes: { one: "vor {count} Minute", other: "vor {count} Minuten" },
+      incomplete:
+        "Nicht vollständig: der Absender ist nicht fertig. Bei abgebrochener Verbindung erneut senden.",
+      take: "Diese verwenden",
+      discard: "Verwerfen",
+      refused: "Zuletzt abgelehnt",
+    },
     series: {
       title: "Welche Serie?",
       hint: "Die Daten enthalten mehrere Serien. Dünne Schichten mit scharfem Faltungskern zeigen die Wände des Pedikels am besten.",

@@ -18,6 +18,16 @@ export const slicesEn = {
         "The plan, the surface and every registration based on the present CT can no longer be used, and a running navigation stops. They stay in the case and can be viewed. The plan can be transferred afterwards.",
       agree: "I understand: send another CT",
     },
+    received: {
+      title: "Received by DICOM",
+      none: "No series waits.",
+      address: "A scanner or archive can send to",
+      minutes: { one: "{count} minute ago", other: "{count} minutes ago" },
+      incomplete: "Not complete: the sender has not finished. Send it again if its connection broke.",
+      take: "Use this one",
+      discard: "Discard",
+      refused: "Last refused",
+    },
     series: {
       title: "Which series?",
       hint: "The data contain several series. Thin slices with a sharp kernel show the walls of the pedicle best.",

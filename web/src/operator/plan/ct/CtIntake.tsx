@@ -10,6 +10,7 @@ import { useTexts } from "../../../texts/TextsContext";
 import { useMadeBy } from "../state/madeBy";
 import { FileButtons } from "./FileButtons";
 import { ReadingPreview } from "./ReadingPreview";
+import { ReceivedList } from "./ReceivedList";
 import { seriesOf, SeriesChoice } from "./SeriesChoice";
 import { UploadProgress } from "./UploadProgress";
 import { useUpload } from "./useUpload";
@@ -75,6 +76,12 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
             onFiles={(files) => {
               job.forget();
               upload.send(files);
+            }}
+          />
+          <ReceivedList
+            onBegun={(begun) => {
+              setUploadId(begun.upload_id);
+              job.follow(begun);
             }}
           />
           {rehearsal.data !== null && (
