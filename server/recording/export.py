@@ -16,7 +16,7 @@ from typing import Any, Literal, TypeAlias
 
 from server.disk import named_when_complete
 from server.errors import RecordingError
-from server.recording_file import Topic
+from server.recording_file import OTHER_CONTENT, Topic
 from server.recording_file.locations import MessageLocations, read_content
 from server.stream.judgement_messages import DeviationMessage
 
@@ -160,7 +160,7 @@ def _read_rows(recording: Path, locations: MessageLocations, table: Table) -> It
             try:
                 content = json.loads(read_content(file, location.offset, location.length))
                 rows = _rows(table, content, image, when)
-            except (ValueError, LookupError, TypeError, AttributeError):
+            except OTHER_CONTENT:
                 # A damaged result is counted, so that later numbers stay correct.
                 continue
             yield from rows

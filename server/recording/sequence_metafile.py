@@ -22,7 +22,7 @@ import numpy as np
 from server.disk import RESERVED_BYTES, named_when_complete
 from server.errors import RecordingError
 from server.recording.timeline import PACKINGS, RecordingIndex, Report, make_index, stored_index
-from server.recording_file import PackedImage, Packing, unpacked
+from server.recording_file import OTHER_CONTENT, PackedImage, Packing, unpacked
 from server.recording_file.locations import read_content
 from server.recording_file.packing import Image
 from tracker.geometry import Array
@@ -211,7 +211,7 @@ class _Sequence:
         try:
             snapshot = json.loads(read_content(self._file, offset, length))
             return int(snapshot["image_number"]), dict(_poses(snapshot))
-        except (ValueError, LookupError, TypeError, AttributeError):
+        except OTHER_CONTENT:
             # The results of this image are damaged.
             return -1, {}
 

@@ -3,6 +3,7 @@
 import json
 import struct
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
@@ -22,6 +23,8 @@ MAX_RECORD_BYTES = 256 * 2**20
 MAX_VALUE_BYTES = 512 * 2**20
 # Exceptions raised for a damaged length.
 TOO_LONG = (MemoryError, OverflowError)
+# Exceptions raised for content that this version does not write.
+OTHER_CONTENT = (ValueError, TypeError, LookupError, AttributeError, ArithmeticError, RecursionError)
 TOPICS = {one.value: one for one in Topic}
 
 
@@ -77,6 +80,20 @@ def decompressed_json(content: bytes) -> Json:
             return json.loads(stream.read(MAX_VALUE_BYTES))
     except zstandard.ZstdError as error:
         raise ValueError(str(error)) from error
+
+
+@contextmanager
+def rejecting_other_content(path: Path) -> Iterator[None]:
+    """Context manager for reading what is in messages: their checksums agree, but anybody can write them.
+
+    Raises:
+        RecordingError: RECORDING_NOT_READABLE.
+    """
+    try:
+        yield
+    except OTHER_CONTENT as error:
+        why = f"a message has other content than this version writes ({type(error).__name__})"
+        raise _not_readable(path, why) from error
 
 
 class RecordingReader:
