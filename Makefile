@@ -148,6 +148,10 @@ test-lowest: ready $(STAMPS)/dev ## what the packages are used for, with the low
 benchmark: ready $(STAMPS)/dev ## accuracy and speed of the tracker, compared with its peers, and regressions
 	@$(PYTHON_IN_VENV) -m tests.benchmarks $(ARGS)
 
+.PHONY: fuzz
+fuzz: ready $(STAMPS)/dev ## changed files and messages for all that reads bytes of strangers (MINUTES=10), findings into .fuzzing
+	@$(PYTHON_IN_VENV) -m tests.fuzzing --minutes $(or $(MINUTES),10) $(ARGS)
+
 .PHONY: house
 house: ready $(STAMPS)/dev ## figures on the structure: sizes, small files, circles of imports, words of the former dialect
 	@$(PYTHON_IN_VENV) -m tests.house
