@@ -20,6 +20,7 @@ from server.numpy_file import BAD_NUMPY_FILE
 from server.recording.drilling_course import DrillingCourse, DrillingCourses
 from server.recording_file import Packing, Topic, rejecting_other_content
 from server.recording_file.locations import Location, MessageLocations, read_content
+from server.recording_file.reader import parsed_json
 from tracker.navigation import Status
 from tracker.navigation.alarms import AlarmState, Change
 
@@ -235,7 +236,7 @@ def make_index(path: Path, report: Report = lambda _ratio, _doing: None) -> Reco
 def _json(file: IO[bytes], location: Location) -> Json:
     """Return a message; an empty mapping if it is damaged."""
     try:
-        content = json.loads(read_content(file, location.offset, location.length))
+        content = parsed_json(read_content(file, location.offset, location.length))
     except (ValueError, RecursionError):
         return {}
     return content if isinstance(content, dict) else {}

@@ -1,6 +1,7 @@
 """Reader of recordings; an incomplete file is read up to its last complete chunk."""
 
 import json
+import re
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -19,6 +20,8 @@ from server.recording_file.packing import Image, PackedImage, Packing, unpacked
 from server.recording_file.topics import PROFILE, ZSTD_JSON, Topic
 
 NANOSECONDS = 1e9
+# An escaped half of a character, which JSON permits and no text of Unicode has.
+SURROGATE = re.compile(rb"\\u[dD][89a-fA-F]")
 MAX_RECORD_BYTES = 256 * 2**20
 MAX_VALUE_BYTES = 512 * 2**20
 # Exceptions raised for a damaged length.
@@ -66,7 +69,20 @@ class RecordedMessage:
         Raises:
             ValueError: The content is not JSON.
         """
-        return decompressed_json(self.content) if self.is_compressed else json.loads(self.content)
+        return decompressed_json(self.content) if self.is_compressed else parsed_json(self.content)
+
+
+def parsed_json(content: bytes) -> Json:
+    """Return the value of a JSON message.
+
+    Raises:
+        ValueError: The content is not JSON, or has a text that cannot be encoded.
+        RecursionError: It is nested too deeply.
+    """
+    value = json.loads(content)
+    if SURROGATE.search(content):
+        json.dumps(value, ensure_ascii=False).encode()
+    return value
 
 
 def decompressed_json(content: bytes) -> Json:
@@ -77,7 +93,7 @@ def decompressed_json(content: bytes) -> Json:
     """
     try:
         with zstandard.ZstdDecompressor().stream_reader(content) as stream:
-            return json.loads(stream.read(MAX_VALUE_BYTES))
+            return parsed_json(stream.read(MAX_VALUE_BYTES))
     except zstandard.ZstdError as error:
         raise ValueError(str(error)) from error
 

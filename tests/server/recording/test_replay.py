@@ -237,6 +237,7 @@ def test_schemas_of_the_wire_are_in_the_file(recorded: Path) -> None:
         pytest.param(Topic.SESSION, "[1]", id="a-list"),
         pytest.param(Topic.NOTE, '{"code": "STATE_MISSING", "message": "", "images": "x"}', id="no-number"),
         pytest.param(Topic.TRACKED, "{}", id="nothing"),
+        pytest.param(Topic.NOTE, '["\\ud800"]', id="half-a-character"),
         pytest.param(Topic.NOTE, "[" * 3000, id="nested-without-end"),
     ],
 )
@@ -246,7 +247,7 @@ def test_what_no_version_has_written_is_no_recording(tmp_path: Path, topic: Topi
     writer.add_json(topic, 0.0, content)
     writer.close()
     for read in (check_recording, lambda path: describe_file(path, as_json=True)):
-        if read is check_recording or topic is Topic.SESSION or content.startswith("[["):
+        if read is check_recording or topic is Topic.SESSION or content.startswith("["):
             with pytest.raises(RecordingError) as rejected:
                 read(tmp_path / "a.mcap")
             assert rejected.value.code == "RECORDING_NOT_READABLE"
