@@ -43,7 +43,7 @@ class Sample:
 
     Attributes:
         at_s: monotonic time.
-        web_mb: memory of the web process, shared pages counted by their share.
+        web_mb: memory of the web process alone, without the images that it shares with others.
         descriptors, threads: of the web process.
         processes: of the server.
         files: in its folder, without recordings.
@@ -60,14 +60,14 @@ class Sample:
 def sample(pid: int, home: Path) -> Sample:
     """Return what a server holds now."""
     process = PROC / str(pid)
-    pss_kb = next(
+    own_kb = next(
         int(line.split()[1])
         for line in (process / "smaps_rollup").read_text(encoding="ascii").splitlines()
-        if line.startswith("Pss:")
+        if line.startswith("Anonymous:")
     )
     return Sample(
         at_s=time.monotonic(),
-        web_mb=pss_kb / 1024.0,
+        web_mb=own_kb / 1024.0,
         descriptors=len(list((process / "fd").iterdir())),
         threads=len(list((process / "task").iterdir())),
         processes=len(family_of(pid).pids),
