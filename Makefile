@@ -148,6 +148,14 @@ test-lowest: ready $(STAMPS)/dev ## what the packages are used for, with the low
 benchmark: ready $(STAMPS)/dev ## accuracy and speed of the tracker, compared with its peers, and regressions
 	@$(PYTHON_IN_VENV) -m tests.benchmarks $(ARGS)
 
+.PHONY: fuzz
+fuzz: ready $(STAMPS)/dev ## changed files and messages for all that reads bytes of strangers (MINUTES=10), findings into .fuzzing
+	@$(PYTHON_IN_VENV) -m tests.fuzzing --minutes $(or $(MINUTES),10) $(ARGS)
+
+.PHONY: soak
+soak: ready $(STAMPS)/dev ## a server with viewers, alarms, recordings and kills for hours (HOURS=8): does anything grow?
+	@$(PYTHON_IN_VENV) -m tests.procedure.soak --hours $(or $(HOURS),8) $(ARGS)
+
 .PHONY: house
 house: ready $(STAMPS)/dev ## figures on the structure: sizes, small files, circles of imports, words of the former dialect
 	@$(PYTHON_IN_VENV) -m tests.house
@@ -171,6 +179,10 @@ sbom: $(STAMPS)/dev $(STAMPS)/page-packages ## the software bill of materials (C
 	@$(NPM) sbom --sbom-format cyclonedx --package-lock-only >.venv/log/page.cdx.json
 	@$(PYTHON_IN_VENV) .make/sbom.py .venv/log/page.cdx.json dist/coaxial.cdx.json
 	@echo dist/coaxial.cdx.json
+
+.PHONY: audit
+audit: $(STAMPS)/dev ## known vulnerabilities of all locked packages, looked up at PyPI and npm
+	@sh .make/audit
 
 .PHONY: lock
 lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade for the newest versions)

@@ -18,6 +18,7 @@ from server.errors import ConfigError
 from server.marker_file import load_marker_image
 from server.plugins import IMAGE_SOURCES, SINKS, SOURCE_PREFIX, plugin_names
 from server.tool_file import tool_from_config, tool_mistakes
+from server.yaml_file import BoundedLoader, parsed_yaml
 from tracker.errors import NavigationError
 
 DEFAULT_FILE = Path("config.yaml")
@@ -98,8 +99,8 @@ class _Where:
         return "the built-in settings" if self.file is None else str(self.file)
 
 
-class _StrictLoader(yaml.SafeLoader):
-    """SafeLoader that rejects duplicate keys."""
+class _StrictLoader(BoundedLoader):
+    """Loader that rejects duplicate keys."""
 
     def construct_mapping(self, node: Any, deep: bool = False) -> dict[Any, Any]:  # noqa: ANN401  PyYAML's node types
         keys: list[object] = []
@@ -125,21 +126,20 @@ def _mapping_from_file(file: Path) -> dict[str, Any]:
             {"file": str(file)},
         ) from error
     try:
-        raw = yaml.load(text, Loader=_StrictLoader)  # noqa: S506  a SafeLoader
-    except (ValueError, RecursionError, yaml.YAMLError) as error:
-        # Also an invalid date, or nesting that is too deep.
+        raw = parsed_yaml(text, _StrictLoader)
+    except ValueError as error:
         raise _yaml_error(file, error) from None
     if raw is None:
         return {}
     if not isinstance(raw, dict):
-        raise _yaml_error(file, yaml.YAMLError(f"it is a {type(raw).__name__}, expected keys with values"))
+        raise _yaml_error(file, ValueError(f"it is a {type(raw).__name__}, expected keys with values"))
     # A section with only comments is empty.
     return {key: value for key, value in raw.items() if value is not None}
 
 
-def _yaml_error(file: Path, error: Exception) -> ConfigError:
-    mark = getattr(error, "problem_mark", None)
-    reason = getattr(error, "problem", None) or str(error)
+def _yaml_error(file: Path, error: ValueError) -> ConfigError:
+    mark = getattr(error.__cause__, "problem_mark", None)
+    reason = getattr(error.__cause__, "problem", None) or str(error)
     place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark is not None else ""
     return ConfigError(
         "CONFIG_INVALID",
@@ -166,11 +166,11 @@ def _from_environment(environment: Mapping[str, str]) -> dict[tuple[str, ...], O
 
 def _yaml_value(name: str, text: str) -> object:
     try:
-        return yaml.load(text, Loader=_StrictLoader)  # noqa: S506  a SafeLoader
-    except (ValueError, RecursionError, yaml.YAMLError) as error:
+        return parsed_yaml(text, _StrictLoader)
+    except ValueError as error:
         raise ConfigError(
             "CONFIG_INVALID",
-            f"{name} is not valid YAML: {getattr(error, 'problem', None) or error}",
+            f"{name} is not valid YAML: {getattr(error.__cause__, 'problem', None) or error}",
             "Write the value as in config.yaml, a list as [1, 2].",
             {"name": name},
         ) from None

@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from server.image_file import is_too_large
 from tracker.errors import InvalidInput
 
 SMALLEST_SIDE_PX = 8
@@ -74,7 +75,7 @@ def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
 
 def _grey(content: bytes, named: str) -> npt.NDArray[np.uint8]:
     decoded = None
-    if content:
+    if content and not is_too_large(content):
         try:
             decoded = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), cv2.IMREAD_GRAYSCALE)
         except cv2.error:

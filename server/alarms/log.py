@@ -255,7 +255,7 @@ def lines_of(file: Path) -> list[Line]:
         return []
     lines: list[Line] = []
     for row in content.split(b"\n"):
-        with suppress(ValueError):
+        with suppress(ValueError, RecursionError):
             line = json.loads(row)
             if isinstance(line, dict):
                 lines.append(line)

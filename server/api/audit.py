@@ -54,6 +54,6 @@ def _line_value(raw: bytes) -> dict[str, object]:
     """Parse a line of the log; a line that is not valid JSON is returned as `damaged`."""
     try:
         line = json.loads(raw)
-    except ValueError:
+    except (ValueError, RecursionError):
         line = None
     return line if isinstance(line, dict) else {"damaged": raw[:200].decode(errors="replace")}

@@ -46,7 +46,9 @@ def source_from_text(text: str | int) -> SourceAddress:
     if plain.lower() == "phone":
         return SourceAddress(kind=SourceKind.PHONE, text="phone", name="phone")
     if plain.isascii() and plain.isdecimal():
-        return SourceAddress(kind=SourceKind.LOCAL_CAMERA, text=plain, name=f"camera {int(plain)}")
+        return SourceAddress(
+            kind=SourceKind.LOCAL_CAMERA, text=plain, name=f"camera {plain.lstrip('0') or '0'}"
+        )
     if re.match(r"^/dev/", plain):
         return SourceAddress(kind=SourceKind.LOCAL_CAMERA, text=plain, name=plain)
     library, colon, serial = plain.partition(":")

@@ -225,7 +225,7 @@ class LocalCameraSource:
 
     def _opened_device(self) -> tuple[VideoDevice | None, str]:
         """Open the device beside OpenCV, with its name; None where system or device do not support it."""
-        path = f"/dev/video{int(self._text)}" if self._text.isdecimal() else self._text
+        path = f"/dev/video{self._text.lstrip('0') or '0'}" if self._text.isdecimal() else self._text
         with contextlib.suppress(OSError):
             device = self._devices.open(path)
             try:

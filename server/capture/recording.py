@@ -8,7 +8,7 @@ from server.capture.pacer import Pacer
 from server.capture.shot import Shot
 from server.errors import CaptureError, RecordingError
 from server.live import CameraStatus
-from server.recording_file import RecordedMessage, RecordingReader, Topic
+from server.recording_file import RecordedMessage, RecordingReader, Topic, rejecting_other_content
 
 FALLBACK_PERIOD_S = 1.0 / 30.0
 
@@ -101,11 +101,12 @@ class RecordingSource:
 
     def _next(self) -> RecordedMessage | None:
         try:
-            for message in self._images:
-                if message.topic is Topic.TRACKED:
-                    self._is_predicted = bool(message.json()["is_predicted"])
-                elif message.topic is Topic.IMAGE:
-                    return message
+            with rejecting_other_content(self._path):
+                for message in self._images:
+                    if message.topic is Topic.TRACKED:
+                        self._is_predicted = bool(message.json()["is_predicted"])
+                    elif message.topic is Topic.IMAGE:
+                        return message
         except RecordingError as error:
             raise _capture_error(error) from error
         return None

@@ -11,7 +11,7 @@ from server.config_file import load_config
 from server.loop.worker import OPENCV_THREADS
 from server.recording.messages import SessionMessage
 from server.recording.replay import Difference, Differences, ReplayReport, check_recording
-from server.recording_file import RecordingReader, Topic
+from server.recording_file import RecordingReader, Topic, rejecting_other_content
 
 EQUAL, DIFFERENT = 0, 1
 
@@ -25,15 +25,16 @@ def describe_file(path: Path, *, as_json: bool) -> int:
     reader = RecordingReader(path)
     session: SessionMessage | None = None
     images, notes, first_s, last_s = 0, [], None, 0.0
-    for message in reader.messages():
-        if message.topic is Topic.SESSION:
-            session = SessionMessage.model_validate(message.json())
-        elif message.topic is Topic.IMAGE:
-            images += 1
-            first_s = message.unix_s if first_s is None else first_s
-            last_s = message.unix_s
-        elif message.topic is Topic.NOTE:
-            notes.append(str(message.json()["message"]))
+    with rejecting_other_content(path):
+        for message in reader.messages():
+            if message.topic is Topic.SESSION:
+                session = SessionMessage.model_validate(message.json())
+            elif message.topic is Topic.IMAGE:
+                images += 1
+                first_s = message.unix_s if first_s is None else first_s
+                last_s = message.unix_s
+            elif message.topic is Topic.NOTE:
+                notes.append(str(message.json()["message"]))
     duration_s = 0.0 if first_s is None else last_s - first_s
     if as_json:
         values = {

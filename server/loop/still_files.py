@@ -7,7 +7,6 @@ import contextlib
 import hashlib
 import os
 import threading
-import zipfile
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,13 +17,13 @@ import structlog
 
 import tracker
 from server.disk import DiskFull, reject_without_space
+from server.numpy_file import BAD_NUMPY_FILE
 
 if TYPE_CHECKING:
     from tracker.rehearsal.backdrop import Still
 
 FOLDER, MAX_FILES, MAX_BYTES = "rehearsal_scenery", 8, 32 * 2**20
 DTYPES = {"picture": np.uint8, "depth_mm": np.float32, "points_mm": np.float32}
-UNREADABLE = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile)
 
 log = structlog.get_logger(__name__)
 
@@ -49,7 +48,7 @@ class StillFiles:
         try:
             with self._path(key).open("rb") as file, np.load(file, allow_pickle=False) as saved:
                 arrays = {name: saved[name] for name in DTYPES}
-        except UNREADABLE:
+        except BAD_NUMPY_FILE:
             return None
         picture, depth_mm, points_mm = arrays.values()
         if any(arrays[name].dtype != dtype for name, dtype in DTYPES.items()):

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.lib.npyio import NpzFile
 
+from server.numpy_file import BAD_NUMPY_FILE
 from server.pose_file.record import FORMATS_REMEDY, PoseRecord, unreadable
 from server.pose_file.structured import PoseFileContent, poses_from_array, poses_from_json
 from server.pose_file.text import contains_numbers, poses_from_text
@@ -137,16 +139,27 @@ def _read_file(file: Path, unit: Unit, *, in_folder: bool) -> PoseFileContent | 
 
 def _array(file: Path) -> np.ndarray:
     try:
-        loaded = np.load(file, allow_pickle=False)
-        if isinstance(loaded, np.ndarray):
-            return loaded
-        with loaded:
-            names = list(loaded)
-            if len(names) != 1:
-                raise unreadable(str(file), f"it contains {len(names)} arrays, expected one")
-            return np.asarray(loaded[names[0]])
-    except (ValueError, EOFError, OSError) as error:
+        # Opened here, because NumPy leaves a damaged archive open.
+        with file.open("rb") as opened:
+            loaded = np.load(opened, allow_pickle=False)
+            return loaded if isinstance(loaded, np.ndarray) else _only_array(loaded, file)
+    except BAD_NUMPY_FILE as error:
         raise unreadable(str(file), "it is not a complete NumPy file of numbers") from error
+
+
+def _only_array(archive: NpzFile, file: Path) -> np.ndarray:
+    names = list(archive)
+    if len(names) != 1:
+        raise unreadable(str(file), f"it contains {len(names)} arrays, expected one")
+    # A small archive may unpack to an array that fills the memory.
+    parts = [] if archive.zip is None else archive.zip.infolist()
+    unpacked_bytes = sum(part.file_size for part in parts)
+    if unpacked_bytes > MAX_BYTES:
+        raise unreadable(
+            str(file),
+            f"it unpacks to {unpacked_bytes / 1e6:.0f} MB, the maximum is {MAX_BYTES / 1e6:.0f} MB",
+        )
+    return np.asarray(archive[names[0]])
 
 
 def _of_one_marker(records: list[PoseRecord], marker: str | None) -> list[PoseRecord]:

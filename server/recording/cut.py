@@ -13,7 +13,7 @@ from server.disk import is_full, named_when_complete
 from server.errors import RecordingError
 from server.recording.messages import NoteMessage
 from server.recording.timeline import Report
-from server.recording_file import RecordedMessage, RecordingReader, Topic
+from server.recording_file import RecordedMessage, RecordingReader, Topic, rejecting_other_content
 from server.recording_file.copy import RecordingCopy
 from server.recording_file.locations import Location, MessageLocations
 
@@ -78,7 +78,11 @@ def cut_recording(
     end_s = first_s + to_s + ROUNDING_S
     reader = RecordingReader(recording)
     try:
-        with named_when_complete(target) as unfinished, RecordingCopy(unfinished, reader) as copy:
+        with (
+            rejecting_other_content(recording),
+            named_when_complete(target) as unfinished,
+            RecordingCopy(unfinished, reader) as copy,
+        ):
             piece = _Piece(copy, begin, end_s)
             for message in reader.messages():
                 if message.topic is Topic.IMAGE and message.unix_s > end_s + MAX_DISORDER_S:

@@ -7,7 +7,6 @@ describes the columns for every format; their names contain the units.
 
 import csv
 import io
-import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -16,8 +15,9 @@ from typing import Any, Literal, TypeAlias
 
 from server.disk import named_when_complete
 from server.errors import RecordingError
-from server.recording_file import Topic
+from server.recording_file import OTHER_CONTENT, Topic
 from server.recording_file.locations import MessageLocations, read_content
+from server.recording_file.reader import parsed_json
 from server.stream.judgement_messages import DeviationMessage
 
 Json: TypeAlias = Any
@@ -158,9 +158,9 @@ def _read_rows(recording: Path, locations: MessageLocations, table: Table) -> It
             time_s = location.unix_s - (location.unix_s if begin_s is None else begin_s)
             when = (round(time_s, 6), round(location.unix_s, 6))
             try:
-                content = json.loads(read_content(file, location.offset, location.length))
+                content = parsed_json(read_content(file, location.offset, location.length))
                 rows = _rows(table, content, image, when)
-            except (ValueError, LookupError, TypeError, AttributeError):
+            except OTHER_CONTENT:
                 # A damaged result is counted, so that later numbers stay correct.
                 continue
             yield from rows

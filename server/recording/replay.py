@@ -27,7 +27,14 @@ from server.recording.messages import (
     library_versions,
     machine_name,
 )
-from server.recording_file import CodecError, RecordedMessage, RecordingReader, Topic, decoded_value
+from server.recording_file import (
+    CodecError,
+    RecordedMessage,
+    RecordingReader,
+    Topic,
+    decoded_value,
+    rejecting_other_content,
+)
 from server.recording_file.codec import Json
 from server.recording_file.topics import FORMAT_VERSION
 from server.stream.snapshot_messages import snapshot_message
@@ -157,8 +164,9 @@ def check_recording(path: Path, *, limits: AlarmLimits | None = None) -> ReplayR
     """
     reader = RecordingReader(path)
     replay = _Replay(limits)
-    for message in reader.messages():
-        replay.take(message)
+    with rejecting_other_content(path):
+        for message in reader.messages():
+            replay.take(message)
     replay.end()
     report = replay.report
     report.is_whole, report.incomplete_reason = reader.is_whole, reader.incomplete_reason

@@ -9,7 +9,6 @@ the status INVALID and the identity as matrix.
 The pixels are not compressed: Plus decompresses all images at once and only up to 4 GB.
 """
 
-import json
 import re
 import shutil
 from collections.abc import Iterable, Iterator
@@ -22,9 +21,10 @@ import numpy as np
 from server.disk import RESERVED_BYTES, named_when_complete
 from server.errors import RecordingError
 from server.recording.timeline import PACKINGS, RecordingIndex, Report, make_index, stored_index
-from server.recording_file import PackedImage, Packing, unpacked
+from server.recording_file import OTHER_CONTENT, PackedImage, Packing, unpacked
 from server.recording_file.locations import read_content
 from server.recording_file.packing import Image
+from server.recording_file.reader import parsed_json
 from tracker.geometry import Array
 
 SUFFIX = ".igs.mha"
@@ -209,9 +209,9 @@ class _Sequence:
         """Return the number of the camera image, and the poses by object; None where absent."""
         offset, length = (int(one) for one in self._index.snapshots[number])
         try:
-            snapshot = json.loads(read_content(self._file, offset, length))
+            snapshot = parsed_json(read_content(self._file, offset, length))
             return int(snapshot["image_number"]), dict(_poses(snapshot))
-        except (ValueError, LookupError, TypeError, AttributeError):
+        except OTHER_CONTENT:
             # The results of this image are damaged.
             return -1, {}
 

@@ -16,9 +16,11 @@ import numpy.typing as npt
 from pydantic import TypeAdapter
 
 from server.alarms.evaluation import AlarmCall
+from server.numpy_file import BAD_NUMPY_FILE
 from server.recording.drilling_course import DrillingCourse, DrillingCourses
-from server.recording_file import Packing, Topic
+from server.recording_file import Packing, Topic, rejecting_other_content
 from server.recording_file.locations import Location, MessageLocations, read_content
+from server.recording_file.reader import parsed_json
 from tracker.navigation import Status
 from tracker.navigation.alarms import AlarmState, Change
 
@@ -177,10 +179,11 @@ def stored_summary(recording: Path) -> RecordingSummary | None:
 def _stored(recording: Path, make: Callable[[Json, Mapping[str, npt.NDArray[Any]]], Stored]) -> Stored | None:
     """Return what is made from the stored index, whose columns are read when they are used."""
     try:
-        with np.load(index_path(recording), allow_pickle=False) as stored:
+        # Opened here, because NumPy leaves a damaged archive open.
+        with index_path(recording).open("rb") as file, np.load(file, allow_pickle=False) as stored:
             about = _current(stored["about"], recording)
             return None if about is None else make(about, stored)
-    except (OSError, ValueError, KeyError, TypeError, EOFError):
+    except BAD_NUMPY_FILE:
         return None
 
 
@@ -201,7 +204,7 @@ def make_index(path: Path, report: Report = lambda _ratio, _doing: None) -> Reco
         RecordingError: RECORDING_NOT_READABLE.
     """
     locations, rows, events = MessageLocations(path), _Rows(), _Events()
-    with path.open("rb") as file:
+    with rejecting_other_content(path), path.open("rb") as file:
         for location in locations:
             match location.topic:
                 case Topic.IMAGE:
@@ -227,14 +230,14 @@ def make_index(path: Path, report: Report = lambda _ratio, _doing: None) -> Reco
                     events.add_documents(location.unix_s, _json(file, location))
                 case _:  # only a replay reads these
                     pass
-    return rows.index(events, is_whole=locations.is_whole)
+        return rows.index(events, is_whole=locations.is_whole)
 
 
 def _json(file: IO[bytes], location: Location) -> Json:
     """Return a message; an empty mapping if it is damaged."""
     try:
-        content = json.loads(read_content(file, location.offset, location.length))
-    except ValueError:
+        content = parsed_json(read_content(file, location.offset, location.length))
+    except (ValueError, RecursionError):
         return {}
     return content if isinstance(content, dict) else {}
 

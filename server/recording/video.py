@@ -27,7 +27,7 @@ from server.loop.tracking_state import TrackingState
 from server.overlay import draw_card, draw_overlay, with_strip
 from server.recording.recorded_results import alarms_of, snapshot_in_state, state_of
 from server.recording.timeline import STATE_ENDS, RecordingIndex, Report, make_index, stored_index
-from server.recording_file import RecordedMessage, RecordingReader, Topic
+from server.recording_file import RecordedMessage, RecordingReader, Topic, rejecting_other_content
 from server.recording_file.locations import read_content
 from server.recording_file.packing import Image
 from server.stream.alarm_messages import AlarmsMessage
@@ -171,12 +171,15 @@ class _Pictures:
         for message in reader.messages():
             match message.topic:
                 case Topic.SESSION:
-                    limits = message.json().get("settings", {}).get("limits", {})
-                    self._max_gap_s = limits.get("video_stale_after_ms", 1e3 * MAX_GAP_S) / 1e3
+                    with rejecting_other_content(self._path):
+                        limits = message.json().get("settings", {}).get("limits", {})
+                        self._max_gap_s = limits.get("video_stale_after_ms", 1e3 * MAX_GAP_S) / 1e3
                 case Topic.STATE:
                     self._state = state_of(message.content)
-                case Topic.NOTE if message.json()["code"] in STATE_ENDS:
-                    self._state = None
+                case Topic.NOTE:
+                    with rejecting_other_content(self._path):
+                        if message.json()["code"] in STATE_ENDS:
+                            self._state = None
                 case Topic.IMAGE:
                     image = message
                 case Topic.SNAPSHOT if image is not None and image.sequence == message.sequence:

@@ -11,11 +11,18 @@ reader.py     reader, also of an incomplete file
 
 from server.recording_file.codec import CodecError, decoded_value, encoded_value
 from server.recording_file.packing import ImagePacker, PackedImage, Packing, unpacked
-from server.recording_file.reader import RecordedMessage, RecordingReader, decompressed_json
+from server.recording_file.reader import (
+    OTHER_CONTENT,
+    RecordedMessage,
+    RecordingReader,
+    decompressed_json,
+    rejecting_other_content,
+)
 from server.recording_file.topics import Topic
 from server.recording_file.writer import RecordingWriter, WriterLimits
 
 __all__ = [
+    "OTHER_CONTENT",
     "CodecError",
     "ImagePacker",
     "PackedImage",
@@ -28,5 +35,6 @@ __all__ = [
     "decoded_value",
     "decompressed_json",
     "encoded_value",
+    "rejecting_other_content",
     "unpacked",
 ]

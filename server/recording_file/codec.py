@@ -89,9 +89,11 @@ def decoded_value(content: Json) -> Value:
         return [decoded_value(one) for one in content]
     if not isinstance(content, dict):
         return content
+    if not content:
+        raise CodecError("an object has no kind of value")
     try:
         return _decoded(content)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError) as error:
         if isinstance(error, CodecError):
             raise
         raise CodecError(f"a value is damaged: {error}") from error

@@ -82,7 +82,9 @@ class MessageLocations:
                 # Truncated or damaged here; earlier messages are readable.
                 self.is_whole = False
 
-    def _records(self, file: IO[bytes], begin: int, end: int) -> Iterator[Location]:
+    def _records(
+        self, file: IO[bytes], begin: int, end: int, *, is_in_chunk: bool = False
+    ) -> Iterator[Location]:
         at = begin
         while at + RECORD.size <= end:
             file.seek(at)
@@ -92,10 +94,14 @@ class MessageLocations:
                 raise ValueError("a record ends beyond its chunk")
             self.position = content
             match opcode:
+                case Opcode.CHUNK if is_in_chunk:
+                    raise ValueError("a chunk is inside of a chunk")
                 case Opcode.CHUNK:
-                    yield from self._records(file, _begin_of_records(file), at)
+                    yield from self._records(file, _begin_of_records(file), at, is_in_chunk=True)
                 case Opcode.CHANNEL:
                     self._add_channel(file.read(length))
+                case Opcode.MESSAGE if length < MESSAGE.size:
+                    raise ValueError("a message is shorter than its head")
                 case Opcode.MESSAGE:
                     channel_id, sequence, log_ns, _ = MESSAGE.unpack(file.read(MESSAGE.size))
                     channel = self._channels[channel_id]

@@ -1,8 +1,10 @@
 """Reader of recordings; an incomplete file is read up to its last complete chunk."""
 
 import json
+import re
 import struct
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
@@ -18,10 +20,14 @@ from server.recording_file.packing import Image, PackedImage, Packing, unpacked
 from server.recording_file.topics import PROFILE, ZSTD_JSON, Topic
 
 NANOSECONDS = 1e9
+# An escaped half of a character, which JSON permits and no text of Unicode has.
+SURROGATE = re.compile(rb"\\u[dD][89a-fA-F]")
 MAX_RECORD_BYTES = 256 * 2**20
 MAX_VALUE_BYTES = 512 * 2**20
 # Exceptions raised for a damaged length.
 TOO_LONG = (MemoryError, OverflowError)
+# Exceptions raised for content that this version does not write.
+OTHER_CONTENT = (ValueError, TypeError, LookupError, AttributeError, ArithmeticError, RecursionError)
 TOPICS = {one.value: one for one in Topic}
 
 
@@ -63,7 +69,20 @@ class RecordedMessage:
         Raises:
             ValueError: The content is not JSON.
         """
-        return decompressed_json(self.content) if self.is_compressed else json.loads(self.content)
+        return decompressed_json(self.content) if self.is_compressed else parsed_json(self.content)
+
+
+def parsed_json(content: bytes) -> Json:
+    """Return the value of a JSON message.
+
+    Raises:
+        ValueError: The content is not JSON, or has a text that cannot be encoded.
+        RecursionError: It is nested too deeply.
+    """
+    value = json.loads(content)
+    if SURROGATE.search(content):
+        json.dumps(value, ensure_ascii=False).encode()
+    return value
 
 
 def decompressed_json(content: bytes) -> Json:
@@ -74,9 +93,23 @@ def decompressed_json(content: bytes) -> Json:
     """
     try:
         with zstandard.ZstdDecompressor().stream_reader(content) as stream:
-            return json.loads(stream.read(MAX_VALUE_BYTES))
+            return parsed_json(stream.read(MAX_VALUE_BYTES))
     except zstandard.ZstdError as error:
         raise ValueError(str(error)) from error
+
+
+@contextmanager
+def rejecting_other_content(path: Path) -> Iterator[None]:
+    """Context manager for reading what is in messages: their checksums agree, but anybody can write them.
+
+    Raises:
+        RecordingError: RECORDING_NOT_READABLE.
+    """
+    try:
+        yield
+    except OTHER_CONTENT as error:
+        why = f"a message has other content than this version writes ({type(error).__name__})"
+        raise _not_readable(path, why) from error
 
 
 class RecordingReader:

@@ -73,6 +73,6 @@ class Gate:
             return Verdict.TOO_LARGE
         try:
             kind = msgspec.msgpack.decode(message, type=_Kind).type
-        except (msgspec.DecodeError, RecursionError):
+        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return Verdict.UNWANTED
         return Verdict.CAMERA if kind == CAMERA_MESSAGE else Verdict.UNWANTED

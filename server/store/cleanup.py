@@ -8,7 +8,7 @@ from sqlalchemy import select
 from server.store.case_database import CaseDatabase
 from server.store.errors import StoreError, translate_errors
 from server.store.files import UNFINISHED, discard
-from server.store.home import RECORDINGS
+from server.store.home import RECORDINGS, sync_folder
 from server.store.tables import PRESENT, WRITING, CaseRow, FileRow
 
 log = structlog.get_logger(__name__)
@@ -41,6 +41,8 @@ def remove_case(database: CaseDatabase, case_id: str) -> None:
         with translate_errors(database.home.folder):
             if folder.exists():
                 shutil.rmtree(folder)
+                # Before the row: after a power cut nobody would know whose files these are.
+                sync_folder(folder.parent)
         with database.write_session() as session:
             row = session.get(CaseRow, case_id)
             if row is not None:

@@ -9,12 +9,13 @@ import json
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import cast
 
 from sqlalchemy import ColumnClause, func, literal_column, select
 from sqlalchemy.orm import Session
 
 from server.store.cases import new_id
-from server.store.errors import NotFound, StoreConflict
+from server.store.errors import NotFound, StoreConflict, StoreError
 from server.store.records import Document, DocumentKind, ImportRecord, Withdrawal
 from server.store.tables import COMPLETE, BasisRow, DocumentFileRow, DocumentRow, FileRow
 from server.store.validation import content_to_json, validate_name
@@ -136,7 +137,21 @@ def contents_of(session: Session, case_id: str, ids: Sequence[str]) -> dict[str,
     chosen = select(DocumentRow.id, DocumentRow.content).where(
         DocumentRow.case_id == case_id, DocumentRow.id.in_(ids)
     )
-    return {row.id: json.loads(row.content) for row in session.execute(chosen)}
+    return {row.id: _content_of(case_id, row.id, row.content) for row in session.execute(chosen)}
+
+
+def _content_of(case_id: str, document_id: str, stored: str) -> Mapping[str, object]:
+    """Return the content of a row; a byte that was changed on the disk may have left no JSON."""
+    try:
+        content = json.loads(stored)
+    except (ValueError, TypeError, RecursionError) as error:
+        raise StoreError(
+            "DOCUMENT_DAMAGED",
+            f"the document {document_id} of the case {case_id} is damaged on the disk",
+            "Check the disk, and restore the server's folder from a copy; other cases can be used.",
+            {"case_id": case_id, "document_id": document_id},
+        ) from error
+    return cast("Mapping[str, object]", content)
 
 
 def document_of(row: DocumentRow, depends_on: Iterable[str], files: Iterable[str]) -> Document:
@@ -147,7 +162,7 @@ def document_of(row: DocumentRow, depends_on: Iterable[str], files: Iterable[str
         kind=DocumentKind(row.kind),
         name=row.name,
         version=row.version,
-        content=json.loads(row.content),
+        content=_content_of(row.case_id, row.id, row.content),
         made_at=row.made_at,
         made_by=row.made_by,
         depends_on=tuple(depends_on),

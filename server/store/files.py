@@ -117,6 +117,8 @@ def discard(database: CaseDatabase, case_id: str, file_id: str) -> None:
     with translate_errors(database.home.folder):
         for path in (folder / f"{UNFINISHED}{file_id}", folder / file_id):
             path.unlink(missing_ok=True)
+        if folder.is_dir():
+            sync_folder(folder)
     with database.write_session() as session:
         row = session.get(FileRow, (case_id, file_id))
         if row is not None:

@@ -34,7 +34,10 @@ class PrivateJsonFile:
         """
         if not self.path.exists():
             return None
-        stored = json.loads(self.path.read_bytes())
+        try:
+            stored = json.loads(self.path.read_bytes())
+        except RecursionError:
+            raise ValueError("it is nested too deeply") from None
         if not isinstance(stored, dict) or stored.get("form") != self._form:
             raise ValueError(f"it is not a JSON object of form {self._form}")
         return stored

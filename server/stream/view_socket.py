@@ -45,6 +45,8 @@ EXPECTED_MESSAGES = (
     'only {"next": true, "showing_ms"?: ms}, {"size": s}, {"largest": s} and {"interval_ms": 0 to 1000}'
 )
 MAX_INTERVAL_MS = 1000.0
+# A page that was asleep reports how long.
+MAX_SHOWING_MS = 1e12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -141,14 +143,15 @@ class ViewRequests:
 def _showing_ms(rest: dict[str, object]) -> float | None:
     """Return the reported display time, 0 without one; None for an invalid message."""
     showing_ms = rest.pop("showing_ms", 0.0)
-    return None if rest or not _is_number(showing_ms, math.inf) else float(showing_ms)
+    return None if rest or not _is_number(showing_ms, MAX_SHOWING_MS) else float(showing_ms)
 
 
 def _is_number(value: object, maximum: float) -> TypeGuard[float]:
-    """Return whether this is a finite number from 0 to the maximum."""
+    """Return whether this is a number from 0 to the maximum."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
-    return math.isfinite(value) and 0.0 <= value <= maximum
+    # Compared as it is, because an integer may be too long for a float.
+    return 0.0 <= value <= maximum
 
 
 async def view_message(view: ViewContext, instant: Instant, viewer: Viewer, overlay: OverlayContent) -> bytes:

@@ -134,3 +134,13 @@ def test_the_lowest_versions_are_those_that_are_declared() -> None:
         if not f"{lowest[name.lower()]}.".startswith(f"{declared[name]}.")
     }
     assert differing == {}
+
+
+def test_the_audit_reads_every_lock() -> None:
+    """Those that it leaves out have no package that the others lack; the lowest versions never run."""
+    audit = text_of(".make/audit")
+    read = [lock for lock in LOCKS if lock in audit]
+    known = {entry.split(";")[0].split()[0] for lock in read for entry in entries(text_of(lock))}
+    for lock in set(LOCKS) - {"requirements-lowest.lock"}:
+        assert {entry.split(";")[0].split()[0] for entry in entries(text_of(lock))} <= known, lock
+    assert "web npm audit" in audit

@@ -1,4 +1,4 @@
-"""Each hazard and threat of the guide names code and a test that exist."""
+"""Each hazard, threat and security requirement of the guide names code and a test that exist."""
 
 from pathlib import Path
 
@@ -50,7 +50,8 @@ def test_a_row_without_its_evidence_is_reported(
     guide = tmp_path / "docs/guide"
     guide.mkdir(parents=True)
     (guide / "hazards.md").write_text(f"| id | test |\n|---|---|\n| {row} |\n", encoding="utf-8")
-    (guide / "threats.md").write_text("", encoding="utf-8")
+    for other in ("threats", "asvs"):
+        (guide / f"{other}.md").write_text("", encoding="utf-8")
     monkeypatch.setattr(traced, "ROOT", tmp_path)
     assert main([]) == 1
     reported = capsys.readouterr().out

@@ -1,4 +1,4 @@
-"""Trace the guide's hazards and threats to code and tests.
+"""Trace the guide's hazards, threats and security requirements to code and tests.
 
 python -m tests.house.traced [--run]: prints each row with what is missing; with --run, whether it passes.
 """
@@ -109,7 +109,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--run", action="store_true", help="run each test")
     given = parser.parse_args(arguments)
     untraced = 0
-    rows = [row for page in ("hazards", "threats") for row in traced_rows(page)]
+    rows = [row for page in ("hazards", "threats", "asvs") for row in traced_rows(page)]
     passed = (
         passed_tests([test for row in rows if not row.missing for test in row.tests]) if given.run else set()
     )

@@ -11,6 +11,13 @@ from server.tool_file import load_tool_file
 from tracker.errors import InvalidInput
 
 
+def unfolding(form: str, *, first: str = "[1, 1]") -> bytes:
+    """YAML of a few lines, each of which has the one before ten times."""
+    lines = [f"a0: &a0 {first}"]
+    lines += [f"a{n}: &a{n} {form.format(', '.join([f'*a{n - 1}'] * 10))}" for n in range(1, 12)]
+    return "\n".join(lines).encode()
+
+
 @pytest.mark.parametrize(
     "content",
     [
@@ -20,6 +27,12 @@ from tracker.errors import InvalidInput
         pytest.param(b"matrix: [1, 2", id="cut-off"),
         pytest.param(b"a: !!python/object/apply:os.system ['true']", id="a-command"),
         pytest.param(b"\x00", id="a-zero"),
+        pytest.param(unfolding("[{}]"), id="lists-that-multiply"),
+        pytest.param(unfolding("{{<<: [{}]}}", first="{x: 1}"), id="merged-mappings-that-multiply"),
+        pytest.param(b"a: &a [*a]", id="a-list-that-contains-itself"),
+        pytest.param(b"matrix: [[0x" + b"f" * 5000 + b", 0, 0]]", id="a-number-of-thousands-of-digits"),
+        pytest.param(b'{"server": {"\\ud800": 1}}', id="half-a-character"),
+        pytest.param(b"# " + b"x" * 2**20, id="megabytes"),
         pytest.param(None, id="a-folder"),
     ],
 )

@@ -96,7 +96,7 @@ class CameraModel:
             # Not converted to integers, because 1920.5 px must be rejected and not truncated.
             width, height = np.asarray(values["size_wh_px"], dtype=np.float64).ravel().tolist()
             size_wh_px = cast("tuple[int, int]", (width, height))
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise InvalidInput(
                 "CAMERA_FILE_INVALID",
                 f"the camera file has a value that is no number: {error}",

@@ -51,7 +51,7 @@ def read_head(file: Path) -> Head | None:
     try:
         stored = json.loads(file.read_bytes())
         return Head(count=int(stored["count"]), sum=str(stored["sum"]))
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, OverflowError, RecursionError):
         return None
 
 

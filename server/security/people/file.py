@@ -32,7 +32,7 @@ def read_people(file: Path) -> tuple[list[Invitation], list[Session]]:
         return [_invitation(one) for one in stored["invitations"]], [
             _session(one) for one in stored["sessions"]
         ]
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, OverflowError) as error:
         raise StoreError(
             "PEOPLE_DAMAGED",
             f"the file of people {file} cannot be read: {error}",

@@ -438,6 +438,12 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "de": "„{unit}“ ist keine Einheit eines Netzes",
         },
     ),
+    "DOCUMENT_DAMAGED": (
+        {
+            "en": "the document {document_id} of the case {case_id} is damaged on the disk",
+            "de": "das Dokument {document_id} des Falls {case_id} ist auf der Platte beschädigt",
+        },
+    ),
     "FILE_DAMAGED": (
         {
             "en": "the file {file_id} of the case {case_id} is damaged: {damage}",

@@ -1,6 +1,8 @@
 """Poses from files: every format gives the same poses, and every mistake is reported with its place."""
 
+import io
 import json
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -8,6 +10,7 @@ import numpy as np
 import pytest
 
 from server.pose_file import Unit, read_poses
+from server.pose_file.reader import MAX_BYTES
 from tests.tracker.pose.tool.pivoted import Hand, pivoted
 from tracker.errors import InvalidInput
 from tracker.geometry import vector_from_rotation
@@ -259,6 +262,52 @@ def test_a_mistake_is_reported_with_its_place(tmp_path: Path, name: str, content
     error = rejected(tmp_path / name)
     assert any(word in f"{error.message} {error.remedy}" for word in words.split("|"))
     assert name in f"{error.message}"
+
+
+def header_of(shape: str) -> bytes:
+    """The header of an array of NumPy, without numbers."""
+    text = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
+    return b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text
+
+
+def zipped(content: bytes, method: int = zipfile.ZIP_DEFLATED) -> bytes:
+    """An archive of NumPy with this member."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", method) as archive:
+        archive.writestr("poses.npy", content)
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        pytest.param("p.npy", header_of("(3, 4, 2147483648)"), "complete", id="more-than-memory"),
+        pytest.param("p.npy", header_of("(3, 4, 1" + "0" * 30 + ")"), "complete", id="no-index"),
+        pytest.param("p.npy", header_of("(3, (4, 4)"), "complete", id="no-literal"),
+        pytest.param("p.npz", zipped(header_of("(1, 4, 4)"))[:-9], "complete", id="cut-archive"),
+        pytest.param(
+            "p.npz",
+            zipped(header_of("(1, 4, 4)")).replace(b"PK\x03\x04", b"PK\x03\x05"),
+            "complete",
+            id="no-member",
+        ),
+        pytest.param("p.npz", zipped(bytes(MAX_BYTES + 1)), "unpacks to 200 MB", id="bomb"),
+    ],
+)
+def test_an_array_that_no_memory_holds_is_rejected(
+    tmp_path: Path, name: str, content: bytes, words: str
+) -> None:
+    (tmp_path / name).write_bytes(content)
+    error = rejected(tmp_path / name)
+    assert error.code == "POSES_UNREADABLE"
+    assert words in error.message
+
+
+def test_covariances_of_different_shapes_are_rejected(tmp_path: Path) -> None:
+    lines = tracked_line(MATRICES[0]) + tracked_line(MATRICES[1], pose_covariance=[[1.0]])
+    (tmp_path / "t.jsonl").write_text(lines)
+    with pytest.raises(InvalidInput, match=r"shape \(1, 1\)"):
+        _ = read_poses(tmp_path / "t.jsonl").poses
 
 
 @pytest.mark.parametrize("kind", ["nowhere", "empty-folder", "binary", "cut-npy", "objects-npy"])

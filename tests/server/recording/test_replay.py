@@ -11,6 +11,7 @@ import pytest
 
 from server.alarms import alarm_limits
 from server.capture.recording import RecordingSource
+from server.cli.replay import describe_file
 from server.errors import RecordingError
 from server.image_file import decoded
 from server.loop.tracking import Tracking
@@ -19,6 +20,7 @@ from server.recording.replay import check_recording
 from server.recording_file import RecordingReader, Topic
 from server.recording_file.codec import Json
 from tests.server.recording.recorded import RecordedTheatre, made_config
+from tests.server.recording_file.written import made_writer
 from tracker.pose import Seen
 
 Make = Callable[..., RecordedTheatre]
@@ -227,3 +229,25 @@ def test_schemas_of_the_wire_are_in_the_file(recorded: Path) -> None:
     content = recorded.read_bytes()
     for name in (b"SnapshotMessage", b"AlarmStepMessage", b"jsonschema"):
         assert name in content
+
+
+@pytest.mark.parametrize(
+    ("topic", "content"),
+    [
+        pytest.param(Topic.SESSION, "[1]", id="a-list"),
+        pytest.param(Topic.NOTE, '{"code": "STATE_MISSING", "message": "", "images": "x"}', id="no-number"),
+        pytest.param(Topic.TRACKED, "{}", id="nothing"),
+        pytest.param(Topic.NOTE, '["\\ud800"]', id="half-a-character"),
+        pytest.param(Topic.NOTE, "[" * 3000, id="nested-without-end"),
+    ],
+)
+def test_what_no_version_has_written_is_no_recording(tmp_path: Path, topic: Topic, content: str) -> None:
+    writer = made_writer(tmp_path / "a.mcap")
+    writer.register(topic, {"type": "object"})
+    writer.add_json(topic, 0.0, content)
+    writer.close()
+    for read in (check_recording, lambda path: describe_file(path, as_json=True)):
+        if read is check_recording or topic is Topic.SESSION or content.startswith("["):
+            with pytest.raises(RecordingError) as rejected:
+                read(tmp_path / "a.mcap")
+            assert rejected.value.code == "RECORDING_NOT_READABLE"

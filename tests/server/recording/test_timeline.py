@@ -158,8 +158,10 @@ def test_an_index_is_stored_beside_its_recording_and_is_of_this_file_alone(tmp_p
     assert stored is not None
     assert stored.events == made.events
     np.testing.assert_array_equal(stored.images, made.images)
-    index_path(path).write_bytes(b"damaged")
-    assert stored_index(path) is None
+    whole = index_path(path).read_bytes()
+    for damaged in (b"damaged", whole[:-30], whole.replace(b"PK\x03\x04", b"PK\x03\x05", 1)):
+        index_path(path).write_bytes(damaged)
+        assert stored_index(path) is None
     store_index(lambda *_: None, recording=str(path))
     path.write_bytes(path.read_bytes() + b"more")
     assert stored_index(path) is None

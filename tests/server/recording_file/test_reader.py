@@ -9,7 +9,7 @@ from mcap.opcode import Opcode
 
 from server.errors import RecordingError
 from server.recording_file import RecordedMessage, RecordingReader, Topic
-from server.recording_file.locations import MAGIC, RECORD, MessageLocations, read_duration_s
+from server.recording_file.locations import CHUNK, MAGIC, RECORD, MessageLocations, read_duration_s
 from tests.server.recording_file.written import OFFSET_S, write_recording
 
 
@@ -95,6 +95,30 @@ def test_a_damaged_length_ends_the_reading(tmp_path: Path, length: int) -> None:
     messages, reader = read(path)
     assert (messages, reader.is_whole) == ([], False)
     assert reader.incomplete_reason
+
+
+def nested_chunks(inner: bytes) -> bytes:
+    for _ in range(2000):
+        content = CHUNK.pack(0, 0, 0, 0) + bytes(4) + struct.pack("<Q", len(inner)) + inner
+        inner = RECORD.pack(Opcode.CHUNK, len(content)) + content
+    return inner
+
+
+@pytest.mark.parametrize(
+    "records",
+    [
+        pytest.param(nested_chunks(b""), id="chunks-in-chunks"),
+        # Its content would be all of the file.
+        pytest.param(RECORD.pack(Opcode.MESSAGE, 3) + bytes(40), id="a-message-without-content"),
+    ],
+)
+def test_records_that_no_writer_makes_end_the_reading(tmp_path: Path, records: bytes) -> None:
+    path = write_recording(tmp_path / "a.mcap")
+    content = bytearray(path.read_bytes())
+    at = _first_record(content, Opcode.CHUNK)
+    path.write_bytes(bytes(content[:at]) + records)
+    locations = MessageLocations(path)
+    assert (list(locations), locations.is_whole) == ([], False)
 
 
 def test_the_duration_of_a_file_with_damaged_statistics_is_not_known(tmp_path: Path) -> None:

@@ -26,6 +26,7 @@ def message(kind: str, **fields: object) -> bytes:
         pytest.param(msgspec.msgpack.encode([1, 2]), Verdict.UNWANTED, id="a list"),
         pytest.param(msgspec.msgpack.encode({"type": 7}), Verdict.UNWANTED, id="a type that is a number"),
         pytest.param(b"\x91" * 5000, Verdict.UNWANTED, id="nested without end"),
+        pytest.param(b"\x81\xa4type\xa2\xff\xff", Verdict.UNWANTED, id="a type that is no text"),
         pytest.param("ViewerCameraMessage", Verdict.UNWANTED, id="text"),
         pytest.param(None, Verdict.UNWANTED, id="no payload"),
         pytest.param(

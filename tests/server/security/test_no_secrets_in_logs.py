@@ -56,3 +56,24 @@ def test_the_password_of_a_stream_is_not_in_its_error(log: io.StringIO) -> None:
     logging.getLogger("test").warning("the stream %s cannot be opened", name)
     assert "s3cret-word" not in log.getvalue()
     assert "another-one" not in log.getvalue()
+
+
+@pytest.mark.parametrize("as_json", [True, False], ids=["json", "terminal"])
+def test_an_unexpected_error_while_signing_in_logs_no_token(
+    tmp_path: Path, log: io.StringIO, monkeypatch: pytest.MonkeyPatch, as_json: bool
+) -> None:
+    monkeypatch.setattr("sys.stderr", log)
+    configure_logging(LogSettings(as_json=as_json, debug=True))
+
+    def fail(_service: object, _shown: str, *, address: str) -> None:
+        del address
+        raise ZeroDivisionError("nobody expected this")
+
+    with guarded(tmp_path / "home") as house:
+        invitation = house.invited()
+        monkeypatch.setattr("server.security.people.service.PeopleService.sign_in", fail)
+        answer = house.door.post("/api/session", json={"invitation": invitation}, headers=OWN)
+    assert answer.status_code == 500
+    # A traceback with the values of variables would have the token.
+    assert "nobody expected this" in log.getvalue()
+    assert invitation.rpartition(".")[2] not in log.getvalue()

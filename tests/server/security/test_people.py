@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import threading
 from datetime import timedelta
 from pathlib import Path
@@ -196,10 +197,17 @@ def test_what_ended_long_ago_is_forgotten(service: PeopleService, tmp_path: Path
 
 def test_a_damaged_file_is_reported(service: PeopleService, tmp_path: Path, clock: Clock) -> None:
     invited(service)
-    (tmp_path / "people.json").write_text('{"form": 1, "invitations": [{}]}')
-    with pytest.raises(StoreError) as reported:
-        people_of(tmp_path, clock)
-    assert reported.value.code == "PEOPLE_DAMAGED"
+    stored = (tmp_path / "people.json").read_text()
+    for damaged in (
+        '{"form": 1, "invitations": [{}]}',
+        "[" * 100_000,
+        stored.replace('"uses": 0', '"uses": 1e999'),
+        re.sub(r'"person": \{[^}]*\}', '"person": "Ito"', stored),
+    ):
+        (tmp_path / "people.json").write_text(damaged)
+        with pytest.raises(StoreError) as reported:
+            people_of(tmp_path, clock)
+        assert reported.value.code == "PEOPLE_DAMAGED"
 
 
 def test_ended_sessions_make_room_and_the_operator_gets_in_however_many_there_are(

@@ -1,6 +1,7 @@
 """Documents of a case: versions, what they depend on, and whether they are valid."""
 
 import math
+import sqlite3
 import threading
 from collections.abc import Callable
 
@@ -16,6 +17,7 @@ from server.store import (
     OutOfDate,
     OutOfDateError,
     StoreConflict,
+    StoreError,
 )
 from server.texts import Language
 from tracker.errors import InvalidInput
@@ -254,3 +256,22 @@ def test_what_cannot_be_stored_with_a_document_keeps_it_out_too(store: CaseStore
     with pytest.raises(NotFound):
         store.put(case_id, PLAN, "main", {}, made_by="ito", companions=stranger)
     assert store.latest(case_id, PLAN, "main") is None
+
+
+def test_a_content_that_the_disk_changed_is_reported_and_other_cases_are_read(
+    store: CaseStore, case_id: str
+) -> None:
+    document = store.put(case_id, DocumentKind.PLAN, "a", {"number": 12345}, made_by="ito")
+    other = store.create("other").id
+    sound = store.put(other, DocumentKind.PLAN, "a", {"number": 1}, made_by="ito")
+    with sqlite3.connect(store.home.database) as database:
+        # A disk asks no trigger.
+        for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
+            database.execute(f"DROP TRIGGER {name}")
+        database.execute("UPDATE documents SET content = '{\"number\": 12C45}' WHERE id = ?", (document.id,))
+    database.close()
+    with pytest.raises(StoreError) as reported:
+        store.document(case_id, document.id)
+    assert reported.value.code == "DOCUMENT_DAMAGED"
+    assert document.id in reported.value.message
+    assert store.document(other, sound.id).content == {"number": 1}

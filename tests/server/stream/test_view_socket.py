@@ -81,6 +81,7 @@ def test_an_instant_without_image_comes_with_an_empty_jpeg(
         pytest.param('{"next": true, "showing_ms": "12"}', 1008, "only {", id="no-number"),
         pytest.param('{"next": true, "showing_ms": true}', 1008, "only {", id="a-truth-value"),
         pytest.param('{"next": true, "showing_ms": Infinity}', 1008, "only {", id="for-ever"),
+        pytest.param(f'{{"next": true, "showing_ms": 1{"0" * 400}}}', 1008, "only {", id="no-float"),
         pytest.param('{"interval_ms": 1001}', 1008, "interval_ms", id="too-seldom"),
         pytest.param('{"interval_ms": NaN}', 1008, "interval_ms", id="no-interval"),
         pytest.param('{"largest": "auto"}', 1008, "only {", id="largest-of-all"),

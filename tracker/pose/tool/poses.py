@@ -100,8 +100,10 @@ def _reject_metres(translations_mm: Array) -> None:
 
 
 def _checked(covariances: Sequence[npt.ArrayLike], count: int) -> Array:
-    stated = np.array([np.asarray(one, dtype=np.float64) for one in covariances])
-    stated = stated if count else np.zeros((0, 6, 6))
+    one_by_one = [np.asarray(one, dtype=np.float64) for one in covariances]
+    # Matrices of different shapes are no array.
+    other = next((one for one in one_by_one if one.shape != (6, 6)), None)
+    stated = np.zeros((0, 6, 6)) if not count else np.array(one_by_one) if other is None else other
     is_sound = stated.shape == (count, 6, 6) and bool(np.isfinite(stated).all())
     if is_sound:
         # Normalised to a unit diagonal, because mm and radians differ by orders of magnitude.

@@ -172,6 +172,11 @@ CASES: tuple[Text, ...] = (
         "de": "Eine von {units} angeben.",
     },
     {
+        "en": "Check the disk, and restore the server's folder from a copy; other cases can be used.",
+        "de": "Die Platte prüfen und den Ordner des Servers aus einer Kopie wiederherstellen; andere Fälle "
+        "sind verwendbar.",
+    },
+    {
         "en": "Restore the file from a copy; steps that need it are not possible until then.",
         "de": "Die Datei aus einer Kopie wiederherstellen; bis dahin sind Schritte, die sie brauchen, "
         "nicht möglich.",
