@@ -181,8 +181,9 @@ def test_each_stage_has_its_name_and_its_time() -> None:
     )
     tracker.step(image, captured_at_s=0.0)
     tracker.step(image, captured_at_s=0.03)
+    # The second judgement is that of the focal length.
     assert tracker.stage_ms == pytest.approx(
-        {"grey": 4.0, "gradient": 4.0, "fit": 4.0, "score": 4.0, "judgement": 4.0}
+        {"grey": 4.0, "gradient": 4.0, "fit": 4.0, "score": 4.0, "judgement": 8.0}
     )
 
 
