@@ -108,7 +108,7 @@ def real_server(
             except subprocess.TimeoutExpired:
                 process.kill()
                 raise
-    assert process.returncode == 0
+    assert process.returncode == 0, f"the server ended with status {process.returncode}"
 
 
 def started(
