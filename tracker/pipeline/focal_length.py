@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.geometry import Camera, Marker, Rigid, vector_from_rotation
+from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import MarkerModel
 from tracker.photometric import FocalLengthError, focal_length_error
 from tracker.pose import DECIDED_COST, ImageContext, Seen, side_px_of
@@ -80,12 +80,15 @@ class FocalLengthMonitor:
         if at_s - self._measured_at_s < MIN_INTERVAL_S:
             return
         for name, seen in sightings.items():
-            if seen.delta_chi2 < DECIDED_COST or not self._is_new(name, seen, at_s):
+            if seen.delta_chi2 < DECIDED_COST:
+                continue
+            near = self._near(name, seen.camera_from_marker)
+            if any(at_s - one.measured_at_s < REPEATED_AFTER_S for one in near):
                 continue
             self._measured_at_s = at_s
             error = self.measure(pixels, self.models[name], seen)
             if error is not None and error.sd <= MAX_SD:
-                self.views = [one for one in self.views if not self._is_near(one, name, seen)]
+                self.views = [one for one in self.views if not any(one is old for old in near)]
                 self.views.append(View(name, seen.camera_from_marker, at_s, error))
                 del self.views[:-MAX_VIEWS]
             return
@@ -105,16 +108,16 @@ class FocalLengthMonitor:
         own = self.models.get(model.name)
         return own is not None and own.side_mm == model.side_mm and np.array_equal(own.square, model.square)
 
-    def _is_new(self, name: str, seen: Seen, at_s: float) -> bool:
-        return not any(
-            at_s - one.measured_at_s < REPEATED_AFTER_S and self._is_near(one, name, seen)
-            for one in self.views
+    def _near(self, name: str, here: Rigid[Camera, Marker]) -> list[View]:
+        """Return the views of this marker that are not different from a pose; called for each image."""
+        own = [one for one in self.views if one.name == name]
+        if not own:
+            return []
+        offsets_mm = np.array([one.camera_from_marker.translation_mm for one in own]) - here.translation_mm
+        rotations = np.array([one.camera_from_marker.rotation for one in own])
+        is_near = np.linalg.norm(offsets_mm, axis=1) < NEW_VIEW_SIDES * self.models[name].side_mm
+        # The trace of a rotation is 1 + 2 cos of its angle.
+        is_near &= np.einsum("kij,ij->k", rotations, here.rotation) > 1.0 + 2.0 * np.cos(
+            np.radians(NEW_VIEW_DEG)
         )
-
-    def _is_near(self, view: View, name: str, seen: Seen) -> bool:
-        if view.name != name:
-            return False
-        here, there = seen.camera_from_marker, view.camera_from_marker
-        moved_mm = float(np.linalg.norm(here.translation_mm - there.translation_mm))
-        turn_rad = float(np.linalg.norm(vector_from_rotation(here.rotation @ there.rotation.T)))
-        return moved_mm < NEW_VIEW_SIDES * self.models[name].side_mm and np.degrees(turn_rad) < NEW_VIEW_DEG
+        return [one for one, near in zip(own, is_near, strict=True) if near]
