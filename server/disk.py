@@ -37,6 +37,15 @@ def reject_without_space(folder: Path, needed_bytes: int) -> None:
         )
 
 
+def sync_path(path: Path) -> None:
+    """Sync a file, or the entries of a folder, to the disk."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
 def reserve_space(path: Path) -> None:
     """Allocate the disk space of a file (posix_fallocate).
 

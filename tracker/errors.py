@@ -68,3 +68,8 @@ class Remark:
     message: str
     remedy: str = ""
     context: Mapping[str, object] = field(default_factory=dict)
+
+    @classmethod
+    def from_error(cls, error: "NavigationError") -> "Remark":
+        """Return an error as a warning about work that went on without its part."""
+        return cls(code=error.code, message=error.message, remedy=error.remedy, context=dict(error.context))

@@ -11,6 +11,31 @@ plan_app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
+CtArgument = Annotated[
+    Path, typer.Argument(help="Folder or zip of DICOM slices, or a NIfTI file.", metavar="CT")
+]
+PlanFileArgument = Annotated[Path, typer.Argument(help="A plan exported from the page.", metavar="PLAN.JSON")]
+SlicesArgument = Annotated[Path, typer.Argument(help="Folder or zip of the CT's DICOM slices.", metavar="CT")]
+LabelsOption = Annotated[
+    Path | None, typer.Option(help="Labels of vertebrae, as for 'coaxial plan labels'.", metavar="LABELS")
+]
+NamesOption = Annotated[
+    str, typer.Option(help="Levels of labels that the file does not name.", metavar="29:L3,28:L4")
+]
+SurfaceOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        help="Bone surface (STL, OBJ, PLY) of a vertebra, in LPS mm; repeatable.", metavar="L3=BONE.STL"
+    ),
+]
+SeriesOption = Annotated[
+    str | None,
+    typer.Option(help="Series to read if CT contains several; see 'coaxial plan series'.", metavar="ID"),
+]
+ConfigOption = Annotated[
+    Path | None, typer.Option(help="Settings file; default: ./config.yaml if it exists.", metavar="FILE")
+]
+
 
 @plan_app.callback()
 def plan() -> None:
@@ -19,7 +44,7 @@ def plan() -> None:
 
 @plan_app.command()
 def measure(
-    ct: Annotated[Path, typer.Argument(help="Folder or zip of DICOM slices, or a NIfTI file.", metavar="CT")],
+    ct: CtArgument,
     side: Annotated[str, typer.Option(help="The patient's side: left or right.", metavar="SIDE")],
     seed_lps_mm: Annotated[
         str,
@@ -28,14 +53,8 @@ def measure(
             metavar="X,Y,Z",
         ),
     ],
-    series: Annotated[
-        str | None,
-        typer.Option(help="Series to read if CT contains several; see 'coaxial plan series'.", metavar="ID"),
-    ] = None,
-    config: Annotated[
-        Path | None,
-        typer.Option(help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
-    ] = None,
+    series: SeriesOption = None,
+    config: ConfigOption = None,
     markups: Annotated[
         Path | None,
         typer.Option(
@@ -61,7 +80,7 @@ def measure(
 
 @plan_app.command()
 def labels(
-    ct: Annotated[Path, typer.Argument(help="Folder or zip of DICOM slices, or a NIfTI file.", metavar="CT")],
+    ct: CtArgument,
     segmentation: Annotated[
         Path,
         typer.Argument(
@@ -76,10 +95,7 @@ def labels(
             metavar="29:L3,28:L4",
         ),
     ] = "",
-    series: Annotated[
-        str | None,
-        typer.Option(help="Series to read if CT contains several; see 'coaxial plan series'.", metavar="ID"),
-    ] = None,
+    series: SeriesOption = None,
     output: Annotated[
         Path | None,
         typer.Option(help="Also write the labels in the voxels of the CT.", metavar="LABELS.NII.GZ"),
@@ -97,7 +113,7 @@ def labels(
 
 @plan_app.command()
 def markups(
-    plan: Annotated[Path, typer.Argument(help="A plan exported from the page.", metavar="PLAN.JSON")],
+    plan: PlanFileArgument,
     output: Annotated[
         Path, typer.Option(help="File for 3D Slicer, ending in .mrk.json.", metavar="MRK.JSON")
     ],
@@ -106,26 +122,6 @@ def markups(
     from server.cli.plan_markups import write_plan_markups  # noqa: PLC0415  loaded when needed
 
     write_plan_markups(plan, output)
-
-
-PlanFileArgument = Annotated[Path, typer.Argument(help="A plan exported from the page.", metavar="PLAN.JSON")]
-SlicesArgument = Annotated[Path, typer.Argument(help="Folder or zip of the CT's DICOM slices.", metavar="CT")]
-LabelsOption = Annotated[
-    Path | None, typer.Option(help="Labels of vertebrae, as for 'coaxial plan labels'.", metavar="LABELS")
-]
-NamesOption = Annotated[
-    str, typer.Option(help="Levels of labels that the file does not name.", metavar="29:L3,28:L4")
-]
-SurfaceOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        help="Bone surface (STL, OBJ, PLY) of a vertebra, in LPS mm; repeatable.", metavar="L3=BONE.STL"
-    ),
-]
-SeriesOption = Annotated[
-    str | None,
-    typer.Option(help="Series to read if CT contains several; see 'coaxial plan series'.", metavar="ID"),
-]
 
 
 @plan_app.command()
@@ -165,10 +161,7 @@ def send(
     names: NamesOption = "",
     surface: SurfaceOption = None,
     series: SeriesOption = None,
-    config: Annotated[
-        Path | None,
-        typer.Option(help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
-    ] = None,
+    config: ConfigOption = None,
 ) -> None:
     """Send the DICOM objects of a plan to the archive of the settings (dicom.archive), in the CT's study."""
     from server.cli.plan_dicom import DicomOptions, send_plan_dicom  # noqa: PLC0415  loaded when needed
@@ -181,7 +174,7 @@ def send(
 
 @plan_app.command()
 def series(
-    ct: Annotated[Path, typer.Argument(help="Folder or zip of DICOM slices, or a NIfTI file.", metavar="CT")],
+    ct: CtArgument,
     json: Annotated[
         bool, typer.Option("--json", help="Write the series as JSON.", show_default=False)
     ] = False,

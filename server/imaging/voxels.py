@@ -1,6 +1,5 @@
 """Buffer for the voxels of a CT: in memory, or a memory-mapped file that is written atomically."""
 
-import os
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from server.disk import reject_without_space, reserve_space
+from server.disk import reject_without_space, reserve_space, sync_path
 from tracker.errors import InvalidInput
 
 MAX_VOXELS = 2**30
@@ -77,18 +76,9 @@ def voxels_to_fill(shape: tuple[int, int, int], into: Path | None) -> Iterator[V
         voxels = Voxels(hu=mapped)
         yield voxels
         mapped.flush()
-        _sync(partial)
+        sync_path(partial)
         partial.replace(into)
-        _sync(into.parent)
+        sync_path(into.parent)
         voxels.hu = np.load(into, mmap_mode="r")
     finally:
         partial.unlink(missing_ok=True)
-
-
-def _sync(path: Path) -> None:
-    """Sync a file or folder to the disk."""
-    descriptor = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

@@ -16,6 +16,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from server.disk import sync_path
 from server.imaging.ct import SeriesDescription
 from tracker.errors import InvalidInput, NavigationError, Remark
 from tracker.plan.document import plain
@@ -156,8 +157,8 @@ class Inbox:
             self._check_limits(series_id, size)
             folder.mkdir(mode=PRIVATE, exist_ok=True)
             file.hardlink_to(path)
-            _sync(file)
-            _sync(folder)
+            sync_path(file)
+            sync_path(folder)
             self._sizes[series_id] = self._sizes.get(series_id, 0) + size
         return series_id
 
@@ -263,11 +264,3 @@ def _check_equal(file: Path, path: Path) -> None:
         "a slice was refused, because another one of the same identifier has arrived before",
         "Discard the series, and send it again.",
     )
-
-
-def _sync(path: Path) -> None:
-    descriptor = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

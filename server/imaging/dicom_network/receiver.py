@@ -158,12 +158,7 @@ class Receiver:
                 (described,) = list_series(self._inbox.files_of(one))
                 self._inbox.describe(one, described)
             except InvalidInput as error:
-                self._inbox.describe(
-                    one,
-                    Remark(
-                        code=error.code, message=error.message, remedy=error.remedy, context=error.context
-                    ),
-                )
+                self._inbox.describe(one, Remark.from_error(error))
 
     def _requested(self, _event: evt.Event) -> None:
         self._prepare(self._clock())
@@ -194,9 +189,7 @@ class Receiver:
         try:
             stored = self._inbox.put(event.dataset_path, series_uid=series_uid, instance_uid=instance_uid)
         except InvalidInput as error:
-            self._report(
-                Remark(code=error.code, message=error.message, remedy=error.remedy, context=error.context)
-            )
+            self._report(Remark.from_error(error))
             return CANNOT_UNDERSTAND if error.code == "RECEIVE_CONTRADICTS" else OUT_OF_RESOURCES
         except OSError:
             self._report(

@@ -44,11 +44,7 @@ def select_wall(
         try:
             wall = bone_distance_field(surface, channel)
         except PlanError as error:
-            remarks.append(
-                Remark(
-                    code=error.code, message=error.message, remedy=error.remedy, context=dict(error.context)
-                )
-            )
+            remarks.append(Remark.from_error(error))
         else:
             planned_mm = planned_clearance_mm(channel, wall, radius_mm=radius_mm)
             if planned_mm >= 0.0:
