@@ -50,7 +50,8 @@ from tracker.plan import Channel
 from tracker.registration import Registration
 
 SIZE_WH_PX = (1280, 720)
-RATE_HZ, FAST_RATE_HZ = 10.0, 15.0
+# Each image takes processor time of server and pages.
+RATE_HZ, FAST_RATE_HZ = 4.0, 15.0
 SIDE_MM = 25.0
 # How long a page that still watches may keep an ending server alive.
 FAREWELL_S = 2

@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.axe import violations_in_both_themes
+from tests.browser.small_targets import FINGER_PX, small_targets
 from tests.browser.supervised import Supervised, opened
 from tests.browser.theatre import PATIENCE_MS, WatchedPage, save_screenshot
 from tests.server.recording.reviewed import DRILLED
@@ -77,11 +78,8 @@ def shows(page: Page, number: int) -> None:
     expect(page.get_by_test_id("review-image")).to_have_attribute("src", re.compile(re.escape(source) + "$"))
 
 
-@pytest.mark.parametrize("size", [SCREEN, TABLET, PHONE], ids=["screen", "tablet", "phone"])
-def test_any_instant_of_a_recording_is_reviewed(
-    supervised: Supervised, watch: Watch, size: tuple[int, int]
-) -> None:
-    page = opened(watch, supervised, "s1", "supervisor", size)
+def test_any_instant_of_a_recording_is_reviewed(supervised: Supervised, watch: Watch) -> None:
+    page = opened(watch, supervised, "s1", "supervisor", PHONE)
     page.get_by_test_id("fold-recordings").locator("summary").click()
     row = page.locator("[data-name='20260101T000000Z-0000.mcap']")
     expect(row.get_by_test_id("recording-end")).to_have_text("complete")
@@ -127,14 +125,13 @@ def test_any_instant_of_a_recording_is_reviewed(
     page.get_by_test_id("review-play").click()
     shows(page, len(DRILLED) - 1)
     expect(page.get_by_test_id("review-play")).to_contain_text("Play")
-    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-    for button in page.locator(".recordings button:visible, .recordings a:visible").all():
-        shape = button.bounding_box()
-        assert shape is not None
-        assert min(shape["width"], shape["height"]) >= 44, button.inner_text()
+    for width, height in (SCREEN, TABLET, PHONE):
+        page.set_viewport_size({"width": width, "height": height})
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        assert small_targets(page, min_px=FINGER_PX, within=".recordings") == []
+        page.get_by_test_id("review").scroll_into_view_if_needed()
+        save_screenshot(page, f"recording-review-{width}")
     assert violations_in_both_themes(page) == []
-    page.get_by_test_id("review").scroll_into_view_if_needed()
-    save_screenshot(page, f"recording-review-{size[0]}")
 
 
 def test_the_3d_scene_shows_the_displayed_instant(supervised: Supervised, watch: Watch) -> None:

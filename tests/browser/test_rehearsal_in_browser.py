@@ -158,7 +158,6 @@ def test_rehearsal_is_tracked_and_seen_in_picture_numbers_and_scene(
         f"first => ({DIGEST})(document.querySelector('canvas.sharp')) !== first", arg=first_picture
     )
     page.wait_for_function(THREE_DEPTHS, timeout=2 * ONE_CYCLE_MS)
-    picture_while_drilling(page, "theatre-running")
     page.set_viewport_size(PICTURE)
     page.get_by_test_id("tile-sagittal").click()
     picture_while_drilling(page, "dashboard")

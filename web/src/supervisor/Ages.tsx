@@ -2,6 +2,7 @@ import { useRef, type ReactNode } from "react";
 import { usePainter } from "../live/LiveContext";
 import type { View } from "../live/live";
 import { formatDuration, formatNumber } from "../live/rounding";
+import { PaintRateLimiter } from "../panes/paintRateLimiter";
 import { setData, setText } from "../panes/setText";
 import { useTexts } from "../texts/TextsContext";
 
@@ -14,8 +15,11 @@ export function AgesStrip(): ReactNode {
   const { supervisor, rest } = useTexts();
   const texts = supervisor.ages;
   const strip = useRef<HTMLDListElement>(null);
+  const limiter = useRef(new PaintRateLimiter());
   usePainter((view) => {
     const ages = agesOf(view, texts, rest.loading);
+    const states = PARTS.map((part) => `${ages[part].mark}${ages[part].live}`).join(" ");
+    if (!limiter.current.isDue(view.nowMs, `${texts.title} ${states}`)) return;
     for (const part of PARTS) {
       const fact = strip.current?.querySelector<HTMLElement>(`[data-part=${part}]`) ?? null;
       setData(fact, "live", String(ages[part].live));
