@@ -13,7 +13,7 @@ from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 ROOM_MB, MIN_MB = 40, 20
 SETTINGS: dict[str, Any] = {
     **BUSY_MACHINE,
-    "rehearsal": {"skill": "good", "width": 640, "height": 360},
+    "rehearsal": {"skill": "good", "width": 640, "height": 360, "rate_hz": 12},
     "alarms": {"screen_lost_after_s": 600, "min_free_disk_mb": MIN_MB},
 }
 HOLD = {"by": "Dr. Sato"}

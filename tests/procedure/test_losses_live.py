@@ -12,7 +12,14 @@ from tests.procedure.team import Team
 
 SETTINGS: dict[str, Any] = {
     **BUSY_MACHINE,
-    "rehearsal": {"seed": 3, "skill": "good", "reference": True, "width": 960, "height": 540},
+    "rehearsal": {
+        "seed": 3,
+        "skill": "good",
+        "reference": True,
+        "width": 960,
+        "height": 540,
+        "rate_hz": 12,
+    },
     "alarms": {"screen_lost_after_s": 600, "drill_unseen_after_ms": 400, "reference_unseen_after_ms": 400},
 }
 # A busy machine may send no message for more than a second: a shorter loss could pass between two.

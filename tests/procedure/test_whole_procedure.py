@@ -16,7 +16,15 @@ from tracker.rehearsal import Phase
 SETTINGS = {
     **BUSY_MACHINE,
     # At 30 images/s the rehearsal would leave the jobs little of two cores.
-    "rehearsal": {"rate_hz": 12, "seed": 3, "provides_setup": False, "reference": True, "rest_s": 1.6},
+    "rehearsal": {
+        "rate_hz": 12,
+        "width": 960,
+        "height": 540,
+        "seed": 3,
+        "provides_setup": False,
+        "reference": True,
+        "rest_s": 1.6,
+    },
     "reference": {"marker": "reference"},
 }
 CONFIG = Config.model_validate(SETTINGS)

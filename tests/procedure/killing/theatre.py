@@ -28,7 +28,14 @@ def settings_of(*, reference: bool) -> dict[str, Any]:
     """Ground truth of a rehearsing server, with or without a patient marker."""
     return {
         **BUSY_MACHINE,
-        "rehearsal": {"seed": 3, "provides_setup": False, "reference": reference, "rate_hz": 15},
+        "rehearsal": {
+            "seed": 3,
+            "provides_setup": False,
+            "reference": reference,
+            "width": 960,
+            "height": 540,
+            "rate_hz": 12,
+        },
         "reference": {"marker": "reference" if reference else None},
     }
 
