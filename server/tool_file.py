@@ -25,6 +25,10 @@ Row = Annotated[list[float], Field(min_length=3, max_length=3)]
 Matrix = Annotated[list[Row], Field(min_length=3, max_length=3)]
 
 
+# In JSON, and where a program has quoted it, a date is text.
+Time = Annotated[datetime, Field(strict=False)]
+
+
 class PivotPart(Section):
     """Result of a pivot calibration."""
 
@@ -34,7 +38,7 @@ class PivotPart(Section):
     used: Annotated[int, Field(ge=1)]
     rejected: Annotated[int, Field(ge=0)]
     tilt_range_deg: float
-    made_at: datetime
+    made_at: Time
 
 
 class SpinPart(Section):
@@ -46,7 +50,7 @@ class SpinPart(Section):
     wobble_deg: float
     used: Annotated[int, Field(ge=1)]
     rejected: Annotated[int, Field(ge=0)]
-    made_at: datetime
+    made_at: Time
 
 
 class ToolMarker(Section):

@@ -91,7 +91,7 @@ def draw_overlay(
         beside = draw_headline(
             drawn, panel.headline, language, left_px=left_px, bottom_px=bottom_px, scale=scale
         )
-    draw_small_print(drawn, snapshot, scale=scale)
+    draw_small_print(drawn, snapshot, language=language, scale=scale)
     draw_alarm_band(drawn, alarms, scale=scale, language=language, beside=beside)
     return drawn
 

@@ -1,6 +1,6 @@
 """Drawing of the panel of figures and of the small print."""
 
-from server.overlay.panel_readings import RESEARCH_SOFTWARE, Panel, Reading
+from server.overlay.panel_readings import Panel, Reading, small_print_of
 from server.overlay.primitives import (
     DRILL_ORANGE,
     QUIET,
@@ -14,7 +14,8 @@ from server.overlay.primitives import (
     text,
     text_width_px,
 )
-from tracker.navigation import Absent, NavigationSnapshot, Status
+from server.texts import Language
+from tracker.navigation import NavigationSnapshot, Status
 
 # Sizes for an image 720 px high; they scale with the image.
 MARGIN_PX = 16.0
@@ -87,17 +88,13 @@ def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale
             text(image, words, (left, base - raised * scale), QUIET, size_px=fitting, weight=weight)
 
 
-def draw_small_print(image: Image, snapshot: NavigationSnapshot, *, scale: float) -> None:
+def draw_small_print(image: Image, snapshot: NavigationSnapshot, *, language: Language, scale: float) -> None:
     """Draw the small print: plan and registration on the left, image and notice on the right."""
-    setup = snapshot.setup
     size = SMALL_PX * scale
     base = (MARGIN_PX + SMALL_PX) * scale
-    if setup.camera_calibrated and not isinstance(setup.channel, Absent):
-        plan = setup.channel.name
-        if not isinstance(setup.registration, Absent):
-            plan += f" · registered by {setup.registration.method}"
+    plan, words = small_print_of(snapshot, language)
+    if plan:
         _small(image, plan, MARGIN_PX * scale, base, size, scale)
-    words = f"image {snapshot.image_number} · {RESEARCH_SOFTWARE}"
     width = text_width_px(words, size_px=size, weight=REGULAR)
     _small(image, words, image.shape[1] - width - (MARGIN_PX + 6.0) * scale, base, size, scale)
 

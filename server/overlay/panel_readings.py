@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from server.texts import Headline, Language, headline_of
+from server.texts import METHODS, Headline, Language, headline_of
 from server.texts.language import amount, number_text
 from server.texts.places import WALLS
 from tracker.navigation import Absent, Assessment, Figure, FigureName, NavigationSnapshot, Status, ToolPose
@@ -30,6 +30,11 @@ LABELS: Mapping[Language, Mapping[FigureName, str]] = {
 UNITS = {FigureName.ANGLE: "°"}
 LIMIT: Mapping[Language, str] = {"en": "limit {}", "de": "Grenze {}"}
 OUTSIDE: Mapping[Language, str] = {"en": "outside bone", "de": "außerhalb"}
+REGISTERED: Mapping[Language, str] = {"en": "registered by {}", "de": "registriert über {}"}
+IMAGE: Mapping[Language, str] = {
+    "en": f"image {{}} · {RESEARCH_SOFTWARE}",
+    "de": "Bild {} · Forschungssoftware, kein Medizinprodukt",
+}
 STEADIED: Mapping[Language, str] = {
     "en": "smoothed · {} ms delay",
     "de": "geglättet · {} ms verzögert",
@@ -55,6 +60,18 @@ class Panel:
     language: Language = "en"
     readings: tuple[Reading, ...] = ()
     note: str = ""
+
+
+def small_print_of(snapshot: NavigationSnapshot, language: Language) -> tuple[str, str]:
+    """Return plan and registration, empty if there is no plan, and image number with the notice."""
+    setup = snapshot.setup
+    plan = ""
+    if setup.camera_calibrated and not isinstance(setup.channel, Absent):
+        plan = setup.channel.name
+        if not isinstance(setup.registration, Absent):
+            method = METHODS[setup.registration.method][language]
+            plan += f" · {REGISTERED[language].format(method)}"
+    return plan, IMAGE[language].format(snapshot.image_number)
 
 
 def panel_of(snapshot: NavigationSnapshot, alarms: AlarmSnapshot = QUIET, language: Language = "en") -> Panel:

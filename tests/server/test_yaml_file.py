@@ -1,5 +1,7 @@
 """Camera, tool and settings files with arbitrary content: rejected with their own code, never a traceback."""
 
+import json
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -50,3 +52,23 @@ def test_what_cannot_be_read_is_reported(tmp_path: Path, content: bytes | None) 
     with pytest.raises(ConfigError) as rejected:
         load_config(path)
     assert str(path) in rejected.value.message
+
+
+def test_a_tool_file_may_be_json_and_its_date_quoted(tmp_path: Path) -> None:
+    pivot = {
+        "tip_in_marker_mm": [0.0, -120.0, -10.0],
+        "covariance_mm2": [[0.01, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0, 0.0, 0.01]],
+        "rms_3d_mm": 0.3,
+        "used": 40,
+        "rejected": 0,
+        "tilt_range_deg": 40.0,
+        "made_at": "2026-11-21T10:00:00+00:00",
+    }
+    path = tmp_path / "drill.json"
+    path.write_text(json.dumps({"marker": "drill", "side_mm": 25.0, "pivot": pivot}))
+    assert load_tool_file(path).pivot.made_at == datetime(2026, 11, 21, 10, tzinfo=UTC)
+    path.write_text(json.dumps({"marker": "drill", "side_mm": 25.0, "pivot": {**pivot, "made_at": "soon"}}))
+    with pytest.raises(InvalidInput) as rejected:
+        load_tool_file(path)
+    assert rejected.value.code == "TOOL_FILE_INVALID"
+    assert "pivot.made_at" in rejected.value.message

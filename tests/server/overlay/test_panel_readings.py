@@ -7,6 +7,7 @@ import pytest
 from server.live import Instant
 from server.number_format import NOT_KNOWN, format_number
 from server.overlay import panel_of
+from server.overlay.panel_readings import small_print_of
 from server.stream.assessment_messages import AssessmentMessage
 from server.stream.messages import live_message
 from tracker.navigation import NavigationSnapshot
@@ -61,3 +62,17 @@ def test_a_drill_across_the_channel_has_no_entry_offset(snapshot_of: SnapshotOf)
     readings = panel_of(snapshot_of(tilt_rad=1.5707963)).readings
     assert readings[0].value == NOT_KNOWN
     assert readings[1].value == "90.0"
+
+
+def test_the_small_print_is_of_one_language(snapshot_of: SnapshotOf) -> None:
+    snapshot = snapshot_of()
+    name, number = snapshot.setup.channel.name, snapshot.image_number  # pyrefly: ignore[missing-attribute]  # it is planned
+    assert small_print_of(snapshot, "en") == (
+        f"{name} · registered by the rehearsal",
+        f"image {number} · research software, not a medical device",
+    )
+    assert small_print_of(snapshot, "de") == (
+        f"{name} · registriert über Probebetrieb",
+        f"Bild {number} · Forschungssoftware, kein Medizinprodukt",
+    )
+    assert small_print_of(snapshot_of(planned=False), "en")[0] == ""
