@@ -3,8 +3,7 @@
 import logging
 import os
 import shutil
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator
 from pathlib import Path
 
 import hypothesis
@@ -36,9 +35,6 @@ FLAGS = (
     "--use-fake-device-for-media-stream",
     "--use-fake-ui-for-media-stream",
 )
-# Frames are composed in the thread of the page. A visible page then takes half of the processor time, but its
-# times are not those of a person's browser.
-TEST_FLAGS = (*FLAGS, "--disable-threaded-compositing")
 
 
 def chromium_path() -> str:
@@ -49,22 +45,15 @@ def chromium_path() -> str:
     return path
 
 
-@contextmanager
-def launched_browser(flags: Sequence[str]) -> Iterator[Browser]:
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
     """The system's Chromium; `COAXIAL_CHROMIUM` names another one."""
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(
-            executable_path=chromium_path(), headless=True, args=list(flags)
+            executable_path=chromium_path(), headless=True, args=list(FLAGS)
         )
         yield chromium
         chromium.close()
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
-    """A browser for tests that measure no time of the page."""
-    with launched_browser(TEST_FLAGS) as chromium:
-        yield chromium
 
 
 def pytest_configure() -> None:

@@ -14,7 +14,6 @@ from tests.benchmarks.first_page.report import MIN_WIDTH_PX, PageMeasurement
 from tests.benchmarks.first_page.screen import measured_screen
 from tests.benchmarks.options import BenchmarkOptions
 from tests.benchmarks.running_server import RunningServer, running_server
-from tests.conftest import FLAGS, launched_browser
 
 pytestmark = pytest.mark.browser
 
@@ -33,13 +32,6 @@ def rehearsal() -> Iterator[RunningServer]:
     """`coaxial run` with the rehearsal."""
     with running_server(BenchmarkOptions(), seed=1, live_rate_hz=30.0) as server:
         yield server
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    """A browser as a person has it on a machine without a graphics card."""
-    with launched_browser(FLAGS) as chromium:
-        yield chromium
 
 
 def test_figures_are_live_and_the_picture_moves_on_two_cores(

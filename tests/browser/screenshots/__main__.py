@@ -22,7 +22,7 @@ from tests.browser.screenshots.page_faults import page_faults
 from tests.browser.screenshots.states import STAGES, Stage, State, click
 from tests.browser.theatre import WatchedPage
 from tests.browser.unconfirmed import answer_unconfirmed
-from tests.conftest import TEST_FLAGS, chromium_path
+from tests.conftest import FLAGS, chromium_path
 
 SIZES = ("1920x1080", "1366x768", "1180x820", "390x844")
 THEMES = ("dark", "light")
@@ -139,9 +139,7 @@ def main() -> None:
     asked.to.mkdir(parents=True, exist_ok=True)
     pictures: dict[str, Sequence[Picture]] = {}
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=chromium_path(), headless=True, args=list(TEST_FLAGS)
-        )
+        browser = playwright.chromium.launch(executable_path=chromium_path(), headless=True, args=list(FLAGS))
         for make, states in STAGES.values():
             wanted = [state for state in states if asked.only in state.name]
             if not wanted:
