@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import brentq
 
 from tests.benchmarks.scenes.area import coverage_image
 from tests.benchmarks.scenes.clutter import Floats
@@ -10,7 +11,9 @@ from tracker.geometry import Array
 
 FINE = 4
 TIP_CORNERS = 32
-HALVINGS = 30
+# Between these distances from the middle, in sides, a finger covers all of a square and nothing of it.
+REACH_SIDES = (-2.5, 2.5)
+TOLERANCE_SIDES = 1e-8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,12 +68,8 @@ def finger_over(square_px: Array, occlusion_ratio: float, random: np.random.Gene
         tip = square_px.mean(axis=0) + towards * far * side + across * aside * side
         return Finger(tip_px=tip, towards=towards, half_px=half * side, reflectance=reflectance)
 
-    near, far = -2.5, 2.5
-    for _ in range(HALVINGS):
-        middle = 0.5 * (near + far)
-        share = at(middle).share(left, top, (columns, rows), FINE)
-        if float(np.sum(share * inside)) > occlusion_ratio * float(inside.sum()):
-            near = middle
-        else:
-            far = middle
-    return at(0.5 * (near + far))
+    def excess(far: float) -> float:
+        share = at(far).share(left, top, (columns, rows), FINE)
+        return float(np.sum(share * inside)) / float(inside.sum()) - occlusion_ratio
+
+    return at(brentq(excess, *REACH_SIDES, xtol=TOLERANCE_SIDES))
