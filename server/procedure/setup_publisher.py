@@ -131,7 +131,8 @@ class SetupPublisher:
         documents = [document for kind in kinds for document in self._store.all_current(case.id, kind)]
         named = [(DocumentKind.PLAN, ACTIVE_CHANNEL)]
         vertebra = self._procedure.active_vertebra(case.id)
-        if vertebra is not None:
+        # In place of a damaged calibration that of the settings would be used, and nobody decided that.
+        if vertebra is not None and not self._store.damaged(case.id, *kinds):
             named += [
                 (DocumentKind.REGISTRATION, vertebra),
                 (DocumentKind.CHECK, check_name(vertebra)),

@@ -29,7 +29,7 @@ from server.procedure.state.cosignatures import missing_cosignatures
 from server.procedure.state.procedure_state import ProcedureState, derive_state, no_case
 from server.procedure.state.records import Finding, StepName, StepState
 from server.procedure.tool import tool_from_document
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Current, Document, DocumentKind, Heading, OutOfDate, Validity
 from server.texts import METHODS, Reason, reason, reason_of_error, withdrawal_text
 from tracker.errors import NavigationError
 from tracker.plan import plan_from_mapping
@@ -192,6 +192,8 @@ class Procedure:
         known = dict.fromkeys(self._defaults.tools)
         no_tool = reason("NO_TOOL_CALIBRATED")
         lost: list[Finding] = []
+        for damaged in self._store.damaged(case_id, DocumentKind.TOOL):
+            return _out_of_date(damaged, self._store.validity(damaged), missing=no_tool)
         documents = self._store.all(case_id, DocumentKind.TOOL)
         numbers: dict[str, float | None] = {}
         for document in documents:
@@ -274,6 +276,9 @@ class Procedure:
         except NavigationError as error:
             return _unusable(registration, error)
         newest = self._store.newest_heading(case_id, DocumentKind.CHECK, check_name(vertebra))
+        if newest is not None and newest.is_damaged:
+            missing = reason("NOT_CHECKED", {"title": registration.title_text})
+            return _out_of_date(newest, self._store.validity(newest), missing=missing)
         withdrawn = None if newest is None else newest.withdrawn
         if newest is not None and withdrawn is not None and registration.id in newest.depends_on:
             return Finding(
@@ -303,8 +308,12 @@ class Procedure:
         validity = self._store.validity(newest)
         if isinstance(validity, Current):
             return self._store.document(case_id, newest.id)
-        why = replace(validity.why, remedy=missing.remedy)
-        return Finding(state=StepState.OUT_OF_DATE, reason=why, document_id=newest.id)
+        return _out_of_date(newest, validity, missing=missing)
+
+
+def _out_of_date(newest: Heading, validity: Validity, *, missing: Reason) -> Finding:
+    why = replace(validity.why, remedy=missing.remedy) if isinstance(validity, OutOfDate) else missing
+    return Finding(state=StepState.OUT_OF_DATE, reason=why, document_id=newest.id)
 
 
 def _done(document: Document, done: Reason, numbers: dict[str, float | int | bool | str | None]) -> Finding:
