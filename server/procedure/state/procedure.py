@@ -1,6 +1,7 @@
 """The state of the procedure, read from the documents of the open case."""
 
 import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import datetime
@@ -67,6 +68,7 @@ class Procedure:
         tracked_from_s: start of the current tracking process, on the image clock.
         cosign: which documents require a co-signature.
         clock: the wall clock, in UTC.
+        seconds: the image clock, which is monotonic.
     """
 
     def __init__(
@@ -80,6 +82,7 @@ class Procedure:
         tracked_from_s: Callable[[], float] = lambda: -math.inf,
         cosign: CosignConfig | None = None,
         clock: Callable[[], datetime] = utc_now,
+        seconds: Callable[[], float] = time.monotonic,
     ) -> None:
         self._store = store
         self._labels = labels
@@ -89,6 +92,7 @@ class Procedure:
         self._tracked_from_s = tracked_from_s
         self.cosign = cosign or CosignConfig()
         self._clock = clock
+        self._seconds = seconds
 
     def state(self) -> ProcedureState:
         """Return the current state of all steps."""
@@ -257,7 +261,11 @@ class Procedure:
         numbers = {
             "method": record.method.value,
             "anchored_to": record.anchored_to.value,
-            "age_min": minutes_since(found.made_at, self._clock()),
+            "age_min": (
+                minutes_since(found.made_at, self._clock())
+                if record.from_s is None or record.run != self.run
+                else (self._seconds() - record.from_s) / 60.0
+            ),
             **record.numbers,
         }
         done = reason("REGISTERED", {"vertebra": vertebra, "method": METHODS[record.method.value]})
@@ -295,6 +303,7 @@ class Procedure:
             run=self.run,
             again_after_min=self._gate.check_again_after_min,
             now=self._clock(),
+            now_s=self._seconds(),
         )
 
     def _found(self, case_id: str, kind: DocumentKind, name: str, *, missing: Reason) -> Document | Finding:
