@@ -231,6 +231,13 @@ def find_damage(database: CaseDatabase, case_id: str) -> tuple[Damage, ...]:
         )
 
 
+def reject_damaged(file: StoredFile) -> None:
+    """Read a file, and raise StoreError FILE_DAMAGED if its content differs from what was stored."""
+    problem = _problem(file)
+    if problem is not None:
+        raise file_damaged(file, "it is missing" if problem[0] == "missing" else "its SHA-256 differs")
+
+
 def _problem(file: StoredFile) -> tuple[str, str] | None:
     try:
         with file.path.open("rb") as stream:
