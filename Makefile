@@ -156,6 +156,10 @@ fuzz: ready $(STAMPS)/dev ## changed files and messages for all that reads bytes
 soak: ready $(STAMPS)/dev ## a server with viewers, alarms, recordings and kills for hours (HOURS=8): does anything grow?
 	@$(PYTHON_IN_VENV) -m tests.procedure.soak --hours $(or $(HOURS),8) $(ARGS)
 
+.PHONY: kills
+kills: ready $(STAMPS)/dev ## kill -9 of the server's processes at random moments of a procedure (MINUTES=15): is all that was confirmed there?
+	@$(PYTHON_IN_VENV) -m tests.procedure.killed --minutes $(or $(MINUTES),15) $(ARGS)
+
 .PHONY: house
 house: ready $(STAMPS)/dev ## figures on the structure: sizes, small files, circles of imports, words of the former dialect
 	@$(PYTHON_IN_VENV) -m tests.house

@@ -1,7 +1,12 @@
-"""Wall clock and its text format."""
+"""Wall clock and its text format.
 
+A wall clock can be set, by a person or by NTP, while the server runs. Times of day come from `utc_now`;
+durations are measured by a monotonic clock, and what lasts until a time of day by a `SteadyClock`.
+"""
+
+import time
 from collections.abc import Callable
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from typing import Literal, TypeAlias
 
 Clock: TypeAlias = Callable[[], datetime]
@@ -10,6 +15,24 @@ Clock: TypeAlias = Callable[[], datetime]
 def utc_now() -> datetime:
     """Return the present time in UTC."""
     return datetime.now(tz=UTC)
+
+
+def elapsed_s() -> float:
+    """Return monotonic time, which includes the sleep of the computer where the system can tell it."""
+    boot_time = getattr(time, "CLOCK_BOOTTIME", None)
+    return time.monotonic() if boot_time is None else time.clock_gettime(boot_time)
+
+
+class SteadyClock:
+    """A clock in UTC that nobody can set: the wall clock when it was made, and the time since then."""
+
+    def __init__(self, *, wall: Clock = utc_now, elapsed_s: Callable[[], float] = elapsed_s) -> None:
+        self._elapsed_s = elapsed_s
+        self._began_at, self._began_s = wall(), elapsed_s()
+
+    def __call__(self) -> datetime:
+        """Return the present time in UTC."""
+        return self._began_at + timedelta(seconds=self._elapsed_s() - self._began_s)
 
 
 def utc_text(at: datetime, *, timespec: Literal["seconds", "milliseconds"] = "milliseconds") -> str:

@@ -36,6 +36,8 @@ class CaseMessage(Message):
     changed_at: str
     copied_from: str | None
     """Id of the exported case if this case was imported."""
+    is_damaged: bool
+    """Whether the disk changed its name or times; giving it its name again makes it usable."""
 
 
 class CasesMessage(Message):
@@ -74,6 +76,12 @@ class WithdrawMessage(Message):
     reason: Words
 
 
+class RestoreMessage(Message):
+    """Request to go on with an older version of a document."""
+
+    by: MadeBy
+
+
 class ImportedMessage(Message):
     """Import of a document with an archive; the contents of archives are not authenticated."""
 
@@ -105,6 +113,9 @@ class HeadingMessage(Message):
     """Whether it and all its dependencies are the newest versions and not withdrawn."""
     out_of_date: str | None
     """Why it is not current; null if it is."""
+    is_damaged: bool
+    """Whether the disk changed this version: only kind, name and version are known, and times and names are
+    empty."""
 
 
 class DocumentsMessage(Message):
@@ -136,11 +147,12 @@ class FilesMessage(Message):
 
 
 class DamageMessage(Message):
-    """A damaged file."""
+    """A damaged file or document."""
 
     file_id: str
+    """Id of the file or document."""
     problem: str
-    """missing, size or content."""
+    """missing, size or content of a file; document."""
     message: str
     documents: list[str]
     """Titles of the documents that need it."""
@@ -180,6 +192,7 @@ def heading_message(heading: Heading, validity: Validity) -> HeadingMessage:
         withdrawn=_withdrawal_message(heading.withdrawn),
         current=isinstance(validity, Current),
         out_of_date=None if isinstance(validity, Current) else validity.why.message[requested_language()],
+        is_damaged=heading.is_damaged,
     )
 
 

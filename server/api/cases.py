@@ -13,6 +13,7 @@ from server.api.case_messages import (
     DocumentMessage,
     DocumentsMessage,
     FilesMessage,
+    RestoreMessage,
     VerificationMessage,
     WithdrawMessage,
     case_message,
@@ -150,6 +151,18 @@ def _add_documents(router: APIRouter, store: CaseStore) -> None:
         found = store.withdraw(store.document(case_id, document_id), by=requested.by, reason=requested.reason)
         return document_message(found, store.validity(found))
 
+    @router.post(
+        "/{case_id}/documents/{document_id}/restoration", responses=rejections(404, 409, 422, 503, 507)
+    )
+    def restore(case_id: str, document_id: str, requested: RestoreMessage) -> DocumentMessage:
+        """Go on with this version, the last intact one, after the disk has damaged the newest one.
+
+        Its content is stored again as the newest version; documents that depended on the damaged one stay out
+        of date.
+        """
+        found = store.restore(store.document(case_id, document_id), by=requested.by)
+        return document_message(found, store.validity(found))
+
 
 def _add_files(router: APIRouter, store: CaseStore) -> None:
     @router.get("/{case_id}/files", responses=rejections(404, 503))
@@ -169,5 +182,5 @@ def _add_files(router: APIRouter, store: CaseStore) -> None:
 
     @router.post("/{case_id}/verification", responses=rejections(404, 503))
     def verify(case_id: str) -> VerificationMessage:
-        """Verify the checksums of all files of the case and return the damaged ones."""
+        """Verify the checksums of all files and documents of the case and return the damaged ones."""
         return verification_message(store.verify(case_id))

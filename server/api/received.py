@@ -1,13 +1,12 @@
 """Series that a scanner or an archive sent by DICOM: list, take and discard."""
 
-import time
-
 from fastapi import APIRouter
 
 from server.api.ct_messages import UploadMessage, upload_message
 from server.api.errors import STATUS_OF, rejections
 from server.api.remark_messages import RemarkMessage, remark_message
 from server.api.requester import MadeByQuery
+from server.clock import SteadyClock
 from server.dicom_receiver import DicomReceiver
 from server.imaging.dicom_network.inbox import Inbox, ReceivedSeries, ReceivedUnknown
 from server.procedure.ct import CtStep
@@ -53,6 +52,9 @@ def received_router(step: CtStep, receiver: DicomReceiver | None) -> APIRouter:
     """Return the router of `/api/ct/received`. Its routes are synchronous because they read from the disk."""
     router = APIRouter(prefix="/api/ct/received", tags=["ct"])
 
+    # Waiting series are not deleted because the computer's clock was set.
+    clock = SteadyClock()
+
     def inbox() -> Inbox:
         if receiver is None:
             raise ReceivedUnknown(
@@ -67,7 +69,7 @@ def received_router(step: CtStep, receiver: DicomReceiver | None) -> APIRouter:
         """Return the series that wait, the newest first."""
         if receiver is None:
             return ReceivedMessage(address="", series=[], remark=None)
-        status, now_s = receiver.status, time.time()
+        status, now_s = receiver.status, clock().timestamp()
         return ReceivedMessage(
             address=f"{status.ae_title}@{status.host}:{status.port}",
             series=[_message(one, now_s) for one in receiver.inbox.waiting(now_s)],

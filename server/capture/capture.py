@@ -5,6 +5,8 @@ import time
 from collections import deque
 from dataclasses import replace
 
+import cv2
+import numpy as np
 import structlog
 
 from server.capture.frozen_image import FrozenImageDetector
@@ -28,8 +30,8 @@ class Capture:
     """The newest image of a source, which is reopened automatically when it fails.
 
     Nothing is queued: an image that was not taken before the next one arrives is skipped and counted. An
-    image that a camera repeats for longer than `FROZEN_AFTER_S` is not passed on. Images of a camera are
-    searched for lamp flicker. Simulated images are rendered at low priority.
+    image that a camera repeats for longer than `FROZEN_AFTER_S` is not passed on, nor is one of another pixel
+    format. Images of a camera are searched for lamp flicker. Simulated images are rendered at low priority.
     """
 
     def __init__(
@@ -154,13 +156,38 @@ class Capture:
             self._is_open = True
             self._alive_at_s = time.monotonic()
         while not self._stop.is_set():
-            shot = self._source.read()
+            shot = self._read()
             if shot is None:
                 self._end()
                 return
             if not self._is_frozen(shot):
                 self._detect_flicker(shot)
                 self._publish(shot)
+
+    def _read(self) -> Shot | None:
+        """Return the next image.
+
+        Raises:
+            CaptureError: the source has none, or IMAGE_NOT_DECODED, IMAGE_FORMAT_INVALID.
+        """
+        try:
+            shot = self._source.read()
+        except cv2.error as error:
+            raise CaptureError(
+                "IMAGE_NOT_DECODED",
+                f"an image of {self._source.name} could not be decoded: {error.err}",
+                "Check the cable, and set the camera to MJPEG or YUYV; it is retried automatically.",
+                {"source": self._source.name, "library_error": error.err},
+            ) from error
+        if shot is not None and not _has_pixels(shot.image):
+            given = f"{shot.image.dtype} {shot.image.shape}"
+            raise CaptureError(
+                "IMAGE_FORMAT_INVALID",
+                f"an image of {self._source.name} is {given}, needed is uint8 (height, width, 3)",
+                "Check the cable, and set the camera to MJPEG or YUYV; it is retried automatically.",
+                {"source": self._source.name, "given": given},
+            )
+        return shot
 
     def _is_frozen(self, shot: Shot) -> bool:
         """Return whether the source repeats an old image as if it were live.
@@ -271,6 +298,10 @@ class Capture:
         if sentence != self._last_logged:
             self._last_logged = sentence
             log.warning(error.message, code=error.code, remedy=error.remedy)
+
+
+def _has_pixels(image: np.ndarray) -> bool:
+    return image.dtype == np.uint8 and image.ndim == 3 and image.shape[2] == 3 and image.size > 0
 
 
 def _rate_hz(times: list[float]) -> float:

@@ -166,7 +166,7 @@ class LocalCameraSource:
             self._check.take((width, height), captured_at_s)
         if self._control_lock is not None:
             self._control_lock.poll(self._clock())
-        shot = Shot.live(np.asarray(image, dtype=np.uint8), number=self._number, captured_at_s=captured_at_s)
+        shot = Shot.live(np.asarray(image), number=self._number, captured_at_s=captured_at_s)
         self._number += 1
         return shot
 

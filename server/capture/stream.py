@@ -129,7 +129,7 @@ class StreamSource:
             self._pacer.wait_until_due(source_time_s)
             captured_at_s = self._clock()
         shot = Shot(
-            image=np.asarray(image, dtype=np.uint8),
+            image=np.asarray(image),
             number=self._number,
             captured_at_s=captured_at_s,
             source_time_s=source_time_s,

@@ -98,7 +98,7 @@ class VideoFileSource:
             time_s = self._last_s + self._period_s()
         self._read_in_pass += 1
         self._last_s = time_s
-        return np.asarray(image, dtype=np.uint8), time_s
+        return np.asarray(image), time_s
 
     def _start_pass(self) -> None:
         # Reopened at each repeat, because seeking to the first image is not exact in every container, and the

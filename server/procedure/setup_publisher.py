@@ -52,11 +52,13 @@ class TrackingLink:
         publish_setup: sends the setup of the open case to the tracking process.
         publish_facts: sends the facts of the procedure to the alarms.
         tracked_from_s: returns the start of the current tracking process, on the image clock.
+        image_clock: returns the present time on the image clock, which is monotonic.
     """
 
     publish_setup: Callable[[CaseSetup], None]
     publish_facts: Callable[[ProcedureFacts], None] = lambda _: None
     tracked_from_s: Callable[[], float] = lambda: -math.inf
+    image_clock: Callable[[], float] = time.monotonic
 
 
 class SetupPublisher:
@@ -131,7 +133,8 @@ class SetupPublisher:
         documents = [document for kind in kinds for document in self._store.all_current(case.id, kind)]
         named = [(DocumentKind.PLAN, ACTIVE_CHANNEL)]
         vertebra = self._procedure.active_vertebra(case.id)
-        if vertebra is not None:
+        # In place of a damaged calibration that of the settings would be used, and nobody decided that.
+        if vertebra is not None and not self._store.damaged(case.id, *kinds):
             named += [
                 (DocumentKind.REGISTRATION, vertebra),
                 (DocumentKind.CHECK, check_name(vertebra)),

@@ -1,7 +1,7 @@
 """All steps of the procedure, created together for one server."""
 
 import secrets
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -120,7 +120,7 @@ class Steps:
         defaults = defaults_from_config(config)
         marker_step = MarkerStep(store=store, defaults=markers)
         labels = LabelProvider(store)
-        procedure = _procedure(store, config, defaults, labels, tracking.tracked_from_s)
+        procedure = _procedure(store, config, defaults, labels, tracking)
         latencies = LatencyFile(store.home.folder)
         drill_references = DrillReferenceBuilder(store=store, jobs=jobs)
         setup_publisher = SetupPublisher(
@@ -203,7 +203,7 @@ def _procedure(
     config: Config,
     defaults: SetupDefaults,
     labels: LabelProvider,
-    tracked_from_s: Callable[[], float],
+    tracking: TrackingLink,
 ) -> Procedure:
     return Procedure(
         store,
@@ -212,7 +212,8 @@ def _procedure(
         gate=config.registration,
         run=new_run(),
         cosign=config.supervision.cosign,
-        tracked_from_s=tracked_from_s,
+        tracked_from_s=tracking.tracked_from_s,
+        seconds=tracking.image_clock,
     )
 
 

@@ -176,6 +176,7 @@ POST    /api/cases/{case_id}/open
 POST    /api/cases/{case_id}/close
 POST    /api/cases/{case_id}/deletion
 POST    /api/cases/{case_id}/documents/{document_id}/withdrawal
+POST    /api/cases/{case_id}/documents/{document_id}/restoration
 POST    /api/cases/{case_id}/verification
 DELETE  /api/jobs/{job_id}
 POST    /api/camera/collection

@@ -1,7 +1,8 @@
 """The open case and the documents of a case in memory, so that a change reads only what it added.
 
 After each change a dozen readers ask for the newest versions and their validity. Only one server writes to a
-folder, and a document is never changed, so that what was read stays true until a withdrawal.
+folder, and a document is never changed, so that what was read stays true until a withdrawal. All documents
+of a case are compared with their checksums when it is read first, and each again when its content is read.
 """
 
 import threading
@@ -9,9 +10,10 @@ from collections.abc import Mapping, Sequence
 
 from server.store.case_database import CaseDatabase
 from server.store.cases import case_row, find_open_case
-from server.store.documents import contents_of
+from server.store.documents import content_of, document_damaged, read_documents, recorded_versions
+from server.store.errors import StoreError
 from server.store.records import Case, Document, DocumentKind, Heading, Validity
-from server.store.validity import Lineage, read_lineage
+from server.store.validity import Lineage, new_documents
 
 # Contents that are kept in memory; a case uses some thirty documents at a time.
 MAX_CONTENTS = 200
@@ -54,12 +56,17 @@ class CaseIndex:
             return self._open
 
     def newest(self, case_id: str, kind: DocumentKind, name: str) -> Heading | None:
-        """Return the newest version, also if it is withdrawn; None if there is none."""
+        """Return the newest version, also if it is withdrawn or damaged; None if there is none."""
         with self._lock:
             return self._current(case_id).newest(kind).get(name)
 
+    def last_intact(self, case_id: str, kind: DocumentKind, name: str) -> Heading | None:
+        """Return the newest version that is not damaged, also if it is withdrawn; None if there is none."""
+        with self._lock:
+            return self._current(case_id).last_intact(kind, name)
+
     def newest_of_kind(self, case_id: str, kind: DocumentKind) -> tuple[Heading, ...]:
-        """Return the newest version of each name, also if it is withdrawn, ordered by name."""
+        """Return the newest version of each name, also if it is withdrawn or damaged, ordered by name."""
         with self._lock:
             newest = self._current(case_id).newest(kind)
             return tuple(newest[name] for name in sorted(newest))
@@ -80,29 +87,50 @@ class CaseIndex:
             return self._current(heading.case_id).validity(heading.id)
 
     def documents(self, case_id: str, headings: Sequence[Heading]) -> tuple[Document, ...]:
-        """Return documents of one case with their contents."""
+        """Return documents of one case with their contents.
+
+        Raises:
+            StoreError: DOCUMENT_DAMAGED.
+        """
         with self._lock:
             self._current(case_id)
+            for heading in headings:
+                if heading.is_damaged:
+                    raise document_damaged(case_id, heading.id)
             missing = [heading.id for heading in headings if heading.id not in self._contents]
             if missing:
                 if len(self._contents) + len(missing) > MAX_CONTENTS:
                     self._contents.clear()
                     missing = [heading.id for heading in headings]
-                with self._database.read_session() as session:
-                    case_row(session, case_id)
-                    self._contents.update(contents_of(session, case_id, missing))
+                self._contents |= self._read(case_id, missing)
             return tuple(Document.of(heading, self._contents[heading.id]) for heading in headings)
+
+    def _read(self, case_id: str, ids: Sequence[str]) -> dict[str, Mapping[str, object]]:
+        try:
+            with self._database.read_session() as session:
+                case_row(session, case_id)
+                return {one.id: one.content for one in read_documents(session, case_id, ids)}
+        except StoreError:
+            # It was intact when its heading was read, and what depends on it is no longer valid.
+            self.forget()
+            raise
 
     def _current(self, case_id: str) -> Lineage:
         """Return the documents of a case, after reading those that are new."""
         if self._case_id != case_id:
-            self._lineage, self._contents, self._case_id = Lineage(), {}, case_id
+            self._lineage, self._contents, self._case_id = Lineage(case_id), {}, case_id
         elif self._read_at == self._commits:
             return self._lineage
         try:
             with self._database.read_session() as session:
                 case_row(session, case_id)
-                read_lineage(session, case_id, self._lineage)
+                is_first = not self._lineage.last_row
+                for document in new_documents(session, self._lineage):
+                    self._lineage.add(document)
+                    # Of a whole case only few contents are asked for.
+                    if not is_first and document.heading is not None:
+                        self._contents[document.id] = content_of(document.content)
+                self._lineage.complete(recorded_versions(session, case_id))
         except BaseException:
             self._case_id = ""
             raise

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 
@@ -17,7 +18,7 @@ from server.store.case_index import CaseIndex
 from server.store.changes import Change
 from server.store.cleanup import clean_up, remove_case
 from server.store.documents import NewDocument
-from server.store.errors import OutOfDateError, StoreError
+from server.store.errors import OutOfDateError, StoreConflict, StoreError
 from server.store.home import Home
 from server.store.records import (
     Case,
@@ -30,7 +31,9 @@ from server.store.records import (
     OutOfDate,
     StoredFile,
     Validity,
+    Withdrawal,
 )
+from server.store.tables import PRESENT
 from server.store.validation import validate_name
 
 
@@ -42,6 +45,7 @@ class CaseStore:
     Raises (every method):
         StoreError: STORE_FULL, STORE_READ_ONLY, STORE_BUSY, STORE_DAMAGED, STORE_FAILED; at the start also
             STORE_SCHEMA_UNKNOWN.
+        StoreError: CASE_DAMAGED, DOCUMENT_DAMAGED, FILE_DAMAGED, what the disk changed is not returned.
         NotFound: CASE_UNKNOWN, DOCUMENT_UNKNOWN, FILE_UNKNOWN.
     """
 
@@ -51,6 +55,7 @@ class CaseStore:
         # Before all other listeners of a commit, which may read what was committed.
         self._index = CaseIndex(self._database)
         self._on_change: Callable[[Change], None] = lambda _: None
+        self._intact_files: set[tuple[str, str]] = set()
         try:
             clean_up(self._database)
         except BaseException:
@@ -97,10 +102,12 @@ class CaseStore:
         return self._index.open_case()
 
     def rename(self, case_id: str, name: str) -> Case:
-        """Rename a case; InvalidInput NAME_INVALID."""
+        """Rename a case, which also makes one usable whose row was damaged; InvalidInput NAME_INVALID."""
         with self._database.write_session() as session:
-            row = cases.case_row(session, case_id)
+            row = cases.case_row(session, case_id, accept_damaged=True)
+            row.state = PRESENT
             row.name, row.changed_at = validate_name(name, of="name of the case"), self._database.now
+            session.flush()
             renamed = cases.case_of(row)
         self._on_change(Change(case_id=case_id, kind="case", before="here", after="here, with another name"))
         return renamed
@@ -186,33 +193,44 @@ class CaseStore:
         return document
 
     def document(self, case_id: str, document_id: str) -> Document:
-        """Return a document."""
+        """Return a document; StoreError DOCUMENT_DAMAGED."""
         return self._index.documents(case_id, [self._heading(case_id, document_id)])[0]
 
     def latest(self, case_id: str, kind: DocumentKind, name: str) -> Document | None:
-        """Return the newest version; None if there is none or it is withdrawn. No older version is reused."""
+        """Return the newest version; None if there is none or it is withdrawn or damaged.
+
+        No older version is reused.
+        """
         heading = self.newest_heading(case_id, kind, name)
-        if heading is None or heading.withdrawn is not None:
+        if heading is None or not heading.is_usable:
             return None
         return self._index.documents(case_id, [heading])[0]
 
     def newest_heading(self, case_id: str, kind: DocumentKind, name: str) -> Heading | None:
-        """Return the heading of the newest version, also if it is withdrawn; None if there is none."""
+        """Return the heading of the newest version, also if withdrawn or damaged; None if there is none."""
         return self._index.newest(case_id, kind, name)
 
+    def damaged(self, case_id: str, *kinds: DocumentKind) -> tuple[Heading, ...]:
+        """Return the headings of the newest versions of these kinds that are damaged."""
+        newest = (one for kind in kinds for one in self._index.newest_of_kind(case_id, kind))
+        return tuple(one for one in newest if one.is_damaged)
+
     def history(self, case_id: str, kind: DocumentKind, name: str) -> tuple[Document, ...]:
-        """Return all versions in order, including withdrawn ones."""
-        with self._database.read_session() as session:
-            cases.case_row(session, case_id)
-            return documents.versions(session, case_id, kind, name)
+        """Return all versions in order, including withdrawn ones, without damaged ones."""
+        headings = self._index.headings(case_id)
+        named = [one for one in headings if (one.kind, one.name) == (kind, name) and not one.is_damaged]
+        return self._index.documents(case_id, sorted(named, key=lambda one: one.version))
 
     def all(self, case_id: str, kind: DocumentKind) -> tuple[Document, ...]:
-        """Return the newest version of each name, without withdrawn ones, ordered by name."""
+        """Return the newest version of each name, without withdrawn and damaged ones, ordered by name."""
         newest = self._index.newest_of_kind(case_id, kind)
-        return self._index.documents(case_id, [one for one in newest if one.withdrawn is None])
+        return self._index.documents(case_id, [one for one in newest if one.is_usable])
 
     def outline(self, case_id: str) -> tuple[Entry, ...]:
-        """Return the headings of all versions of all documents with their validity, in order of creation."""
+        """Return the headings of all versions of all documents with their validity, in order of creation.
+
+        Versions that are damaged come last.
+        """
         return tuple(
             Entry(heading=heading, validity=self._index.validity(heading))
             for heading in self._index.headings(case_id)
@@ -221,7 +239,8 @@ class CaseStore:
     def validity(self, document: Heading) -> Validity:
         """Return whether a document is valid.
 
-        It is valid if it and all documents that it depends on are the newest versions, and none is withdrawn.
+        It is valid if it and all documents that it depends on are the newest versions, and none is withdrawn
+        or damaged.
         """
         return self._index.validity(self._heading(document.case_id, document.id))
 
@@ -230,7 +249,11 @@ class CaseStore:
 
         Raises:
             OutOfDateError: DOCUMENT_MISSING, DOCUMENT_OUT_OF_DATE.
+            StoreError: DOCUMENT_DAMAGED.
         """
+        heading = self.newest_heading(case_id, kind, name)
+        if heading is not None and heading.is_damaged:
+            raise documents.document_damaged(case_id, heading.id)
         document = self.latest(case_id, kind, name)
         if document is None:
             raise OutOfDateError(
@@ -270,17 +293,53 @@ class CaseStore:
         )
         with self._database.write_session() as session:
             case = cases.case_row(session, document.case_id)
-            row = documents.document_row(session, document.case_id, document.id)
-            is_news = row.withdrawn_at is None
+            found = documents.find_document(session, document.case_id, document.id)
+            is_news = found.withdrawn is None
             if is_news:
                 self._forget_after_commit(session)
-                case.changed_at = row.withdrawn_at = self._database.now
-                row.withdrawn_by, row.withdrawn_reason = by, reason
-                session.flush()
-            found = documents.find_document(session, document.case_id, document.id)
+                case.changed_at = self._database.now
+                withdrawal = Withdrawal(at=case.changed_at, by=by, reason=reason)
+                documents.withdraw_document(session, found, withdrawal)
+                found = documents.find_document(session, document.case_id, document.id)
         if is_news:
             self._on_change(Change.withdrawn(found, by=by))
         return found
+
+    def restore(self, document: Heading, *, by: str) -> Document:
+        """Store the content of the last intact version as the newest one, after the newest one was damaged.
+
+        `by` is the person who decided it.
+
+        Raises:
+            StoreConflict: NOT_RESTORABLE, the newest version is not damaged, or the last intact one is
+                another one or withdrawn.
+        """
+        newest = self.newest_heading(document.case_id, document.kind, document.name)
+        intact = self._index.last_intact(document.case_id, document.kind, document.name)
+        is_last = intact is not None and intact.is_usable and intact.id == document.id
+        if newest is None or not newest.is_damaged or not is_last:
+            raise StoreConflict(
+                "NOT_RESTORABLE",
+                f"{document.title} is not the last intact version before a damaged one",
+                "Load the list of documents again.",
+                {"title": document.title_text},
+            )
+        restored = self.document(document.case_id, document.id)
+        new = NewDocument.validated(
+            restored.kind,
+            restored.name,
+            restored.content,
+            made_by=by,
+            depends_on=restored.depends_on,
+            files=restored.files,
+            expected_version=newest.version,
+        )
+        with self._database.write_session() as session:
+            case, now = cases.case_row(session, restored.case_id), self._database.now
+            case.changed_at = now
+            stored = documents.add_document(session, restored.case_id, new, now=now)
+        self._on_change(replace(Change.added(stored), before=restored.version))
+        return stored
 
     def _forget_after_commit(self, session: Session) -> None:
         event.listen(session, "after_commit", lambda _: self._index.forget(), once=True)
@@ -306,9 +365,19 @@ class CaseStore:
         return files.new_file(self._database, case_id, suffix)
 
     def file(self, case_id: str, file_id: str) -> StoredFile:
-        """Return a file; StoreError FILE_DAMAGED if it is missing on the disk."""
+        """Return a file, whose content is compared with its SHA-256 once in a run of the program.
+
+        Raises:
+            StoreError: FILE_DAMAGED.
+        """
         with self._database.read_session() as session:
-            return files.find_file(self._database, session, case_id, file_id)
+            found = files.find_file(self._database, session, case_id, file_id)
+        # Not at each access: a CT takes tenths of a second.
+        if (case_id, file_id) not in self._intact_files:
+            with self._database.in_use(case_id):
+                files.reject_damaged(found)
+            self._intact_files.add((case_id, file_id))
+        return found
 
     def files(self, case_id: str) -> tuple[StoredFile, ...]:
         """Return all files of a case, oldest first."""
@@ -317,7 +386,7 @@ class CaseStore:
             return files.all_files(self._database, session, case_id)
 
     def verify(self, case_id: str) -> tuple[Damage, ...]:
-        """Read every file of a case, and return those that are missing or damaged."""
+        """Read every file and document of a case, and return those that are missing or damaged."""
         return files.find_damage(self._database, case_id)
 
     # ------------------------------------------------------------ archives
@@ -326,7 +395,7 @@ class CaseStore:
         """Export a case as an archive; its name and the patient's identity are left out by default.
 
         Raises:
-            StoreError: FILE_DAMAGED.
+            StoreError: FILE_DAMAGED, DOCUMENT_DAMAGED.
         """
         return pack(self._database, case_id, with_identity=with_identity)
 

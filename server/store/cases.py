@@ -2,14 +2,18 @@
 
 import secrets
 
+import structlog
 from sqlalchemy import delete, select
 from sqlalchemy.orm import Session
 
-from server.store.errors import NotFound, StoreConflict
+from server.store.checksums import case_checksum
+from server.store.errors import NotFound, StoreConflict, StoreError
 from server.store.records import Case
 from server.store.tables import DELETING, PRESENT, CaseRow, OpenCaseRow
 from server.store.validation import validate_name
 from tracker.errors import InvalidInput
+
+log = structlog.get_logger(__name__)
 
 
 def new_id() -> str:
@@ -19,22 +23,39 @@ def new_id() -> str:
 
 def case_of(row: CaseRow) -> Case:
     """Convert a row to a record."""
+    # A damaged row can have values of other types.
     return Case(
-        id=row.id,
-        name=row.name,
-        created_at=row.created_at,
-        changed_at=row.changed_at,
-        copied_from=row.copied_from,
+        id=f"{row.id}",
+        name=f"{row.name}",
+        created_at=f"{row.created_at}",
+        changed_at=f"{row.changed_at}",
+        copied_from=None if row.copied_from is None else f"{row.copied_from}",
+        is_damaged=not is_intact(row),
     )
 
 
-def case_row(session: Session, case_id: str) -> CaseRow:
+def is_intact(row: CaseRow) -> bool:
+    """Return whether a row matches its checksum."""
+    return row.checksum == case_checksum(row)
+
+
+def case_row(session: Session, case_id: str, *, accept_damaged: bool = False) -> CaseRow:
     """Return the row of an existing case.
 
     Raises:
         NotFound: CASE_UNKNOWN.
+        StoreError: CASE_DAMAGED, unless that is accepted.
     """
     row = session.get(CaseRow, case_id)
+    if row is not None and not is_intact(row):
+        if accept_damaged:
+            return row
+        raise StoreError(
+            "CASE_DAMAGED",
+            f"the name or the times of the case {case_id} are damaged on the disk",
+            "Check which case it is, and give it its name again. Then check the disk.",
+            {"case_id": case_id},
+        )
     if row is None or row.state != PRESENT:
         raise NotFound(
             "CASE_UNKNOWN",
@@ -46,11 +67,10 @@ def case_row(session: Session, case_id: str) -> CaseRow:
 
 
 def all_cases(session: Session) -> tuple[Case, ...]:
-    """Return all cases, newest first."""
-    rows = session.scalars(
-        select(CaseRow).where(CaseRow.state == PRESENT).order_by(CaseRow.created_at.desc(), CaseRow.id)
-    )
-    return tuple(case_of(row) for row in rows)
+    """Return all cases, newest first, also those whose rows are damaged."""
+    rows = [row for row in session.scalars(select(CaseRow)) if row is not None]
+    cases = [case_of(row) for row in rows if row.state == PRESENT or not is_intact(row)]
+    return tuple(sorted(sorted(cases, key=lambda one: one.id), key=lambda one: one.created_at, reverse=True))
 
 
 def add_case(
@@ -71,9 +91,13 @@ def add_case(
 
 
 def find_open_case(session: Session) -> Case | None:
-    """Return the open case, or None."""
+    """Return the open case; None if there is none, or if its row is damaged."""
     row = session.get(OpenCaseRow, 1)
-    return None if row is None else case_of(case_row(session, row.case_id))
+    try:
+        return None if row is None else case_of(case_row(session, row.case_id))
+    except (StoreError, NotFound) as error:
+        log.warning("the case that was open is closed", code=error.code, why=error.message)
+        return None
 
 
 def open_case(session: Session, case_id: str) -> Case:
@@ -96,7 +120,7 @@ def reject_removal(session: Session, case_id: str, confirm: str) -> None:
         StoreConflict: CASE_OPEN.
         InvalidInput: CONFIRMATION_WRONG.
     """
-    row = case_row(session, case_id)
+    row = case_row(session, case_id, accept_damaged=True)
     opened = session.get(OpenCaseRow, 1)
     if opened is not None and opened.case_id == case_id:
         raise StoreConflict(
@@ -119,5 +143,5 @@ def mark_deleting(session: Session, case_id: str) -> None:
 
     The change is small, because it must succeed on a full disk.
     """
-    row = case_row(session, case_id)
+    row = case_row(session, case_id, accept_damaged=True)
     row.state, row.name = DELETING, ""

@@ -5,9 +5,10 @@ import shutil
 import structlog
 from sqlalchemy import select
 
+from server.store import cases
 from server.store.case_database import CaseDatabase
 from server.store.errors import StoreError, translate_errors
-from server.store.files import UNFINISHED, discard
+from server.store.files import UNFINISHED, discard, is_intact
 from server.store.home import RECORDINGS, sync_folder
 from server.store.tables import PRESENT, WRITING, CaseRow, FileRow
 
@@ -17,10 +18,11 @@ log = structlog.get_logger(__name__)
 def clean_up(database: CaseDatabase) -> None:
     """Finish deletions, and remove cases and files that were never complete."""
     with database.read_session() as session:
-        gone = list(session.scalars(select(CaseRow.id).where(CaseRow.state != PRESENT)))
-        unfinished = [
-            (row.case_id, row.id) for row in session.scalars(select(FileRow).where(FileRow.state == WRITING))
-        ]
+        # A state that the disk changed must not delete anything.
+        leftovers = session.scalars(select(CaseRow).where(CaseRow.state != PRESENT))
+        gone = [row.id for row in leftovers if row is not None and cases.is_intact(row)]
+        partial = session.scalars(select(FileRow).where(FileRow.state == WRITING))
+        unfinished = [(row.case_id, row.id) for row in partial if row is not None and is_intact(row)]
     for case_id in gone:
         remove_case(database, case_id)
     for case_id, file_id in unfinished:
@@ -61,12 +63,12 @@ def remove_case(database: CaseDatabase, case_id: str) -> None:
 def _log_strays(database: CaseDatabase) -> None:
     """Log files that the database does not know. They are kept, because the database may be an older copy."""
     with database.read_session() as session:
-        known = {(row.case_id, row.id) for row in session.scalars(select(FileRow))}
-        cases = set(session.scalars(select(CaseRow.id)))
+        known = {(row.case_id, row.id) for row in session.execute(select(FileRow.case_id, FileRow.id))}
+        known_cases = set(session.scalars(select(CaseRow.id)))
     strays = []
     with translate_errors(database.home.folder):
         for folder in database.home.cases.iterdir():
-            if folder.name not in cases:
+            if folder.name not in known_cases:
                 strays.append(folder.name)
                 continue
             strays += [

@@ -1,11 +1,17 @@
-"""The SQLite database: durable commits, and an integrity check when it is opened."""
+"""The SQLite database: durable commits, and an integrity check when it is opened.
 
+SQLite checks the structure of its file. What rows contain is checked by their checksums when they are read,
+so that a damaged row costs only what depends on it; the start fails only if the structure is damaged.
+"""
+
+import re
 import sqlite3
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 
+import structlog
 from sqlalchemy import Connection, Engine, create_engine, event, inspect, text
 from sqlalchemy.engine.interfaces import DBAPIConnection
 from sqlalchemy.pool import ConnectionPoolEntry
@@ -13,12 +19,22 @@ from sqlalchemy.pool import ConnectionPoolEntry
 from server.store.errors import damaged_database, translate_errors
 from server.store.home import Home, sync_folder
 
+log = structlog.get_logger(__name__)
+
 MIGRATIONS = Path(__file__).parent / "migrations"
 # Revision of the newest file in `MIGRATIONS`.
-CURRENT_REVISION = "2"
+CURRENT_REVISION = "3"
 BUSY_TIMEOUT_MS = 10_000
-# secure_delete overwrites deleted patient data.
+# Complaints of the integrity check about values in rows, which their checksums find.
+OF_VALUES = re.compile(r"(NULL|TEXT|NUMERIC|NON-\w+) value in |CHECK constraint failed in ")
+# Complaints about an index that differs from its table, from which it can be made again.
+OF_INDEXES = re.compile(
+    r"(row \d+ missing from|wrong # of entries in|non-unique entry in) index |rowid not at end-of-record "
+)
+MAX_COMPLAINTS = 100
+# secure_delete overwrites deleted patient data; cell_size_check finds some damaged pages before their use.
 PRAGMAS = (
+    "PRAGMA cell_size_check = ON",
     "PRAGMA journal_mode = WAL",
     "PRAGMA synchronous = FULL",
     "PRAGMA fullfsync = ON",
@@ -40,7 +56,8 @@ def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path =
     event.listen(engine, "begin", _begin)
     with translate_errors(home.folder):
         try:
-            _check(engine, home)
+            with _damaged_names(home):
+                _check(engine, home, now)
             if migrations != MIGRATIONS or _revision(engine) != CURRENT_REVISION:
                 # Imported on demand: Alembic takes half a second, and most starts need no migration.
                 from server.store.migration import migrate  # noqa: PLC0415
@@ -68,6 +85,8 @@ def _prepare(connection: DBAPIConnection, entry: ConnectionPoolEntry) -> None:
     del entry
     # The sqlite3 module starts transactions late, and not for DDL; they are started explicitly in `_begin`.
     connection.isolation_level = None
+    # A damaged text must not make the whole case unreadable; it does not match its checksum.
+    connection.text_factory = lambda content: content.decode("utf-8", "replace")
     cursor = connection.cursor()
     for pragma in PRAGMAS:
         cursor.execute(pragma)
@@ -91,11 +110,51 @@ def raw_connection(engine: Engine) -> Iterator[sqlite3.Connection]:
         proxied.close()
 
 
-def _check(engine: Engine, home: Home) -> None:
+def _check(engine: Engine, home: Home, now: Callable[[], datetime]) -> None:
+    """Check the structure of the database, and make indexes that differ from their tables again.
+
+    Raises:
+        StoreError: STORE_DAMAGED.
+    """
     with raw_connection(engine) as connection:
-        found = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
-    if found != "ok":
-        raise damaged_database(home.folder, str(found))
+        complaints = _complaints(connection)
+        if complaints and all(OF_INDEXES.match(one) for one in complaints):
+            back_up(engine, home, name=f"coaxial-damaged-{now():%Y%m%dT%H%M%SZ}.sqlite3")
+            with suppress(sqlite3.IntegrityError):
+                connection.execute("REINDEX")
+            log.warning(
+                "the disk has damaged the database, and its indexes were made again",
+                code="STORE_REPAIRED",
+                complaints=complaints[:10],
+                remedy="Check the disk. Damaged documents are named in the list of documents of their case.",
+            )
+            complaints = _complaints(connection)
+    if complaints:
+        raise damaged_database(home.folder, complaints[0])
+
+
+def _complaints(connection: sqlite3.Connection) -> list[str]:
+    rows = connection.execute(f"PRAGMA integrity_check({MAX_COMPLAINTS})").fetchall()
+    return [complaint for (complaint,) in rows if complaint != "ok" and not OF_VALUES.match(complaint)]
+
+
+@contextmanager
+def _damaged_names(home: Home) -> Iterator[None]:
+    """Context manager for statements whose errors can quote a damaged name that is no text."""
+    try:
+        yield
+    except UnicodeDecodeError as error:
+        raise damaged_database(home.folder, str(error)) from error
+
+
+def back_up(engine: Engine, home: Home, *, name: str) -> None:
+    """Make a durable backup of the database."""
+    part = home.backups / f"{name}.part"
+    with raw_connection(engine) as source, closing(sqlite3.connect(part)) as target:
+        target.execute("PRAGMA synchronous = FULL")
+        source.backup(target)
+    part.replace(home.backups / name)
+    sync_folder(home.backups)
 
 
 def _revision(engine: Engine) -> str | None:

@@ -5,24 +5,36 @@ remains for the report. If the newest version is withdrawn there is none, becaus
 become valid again.
 """
 
+import itertools
 import json
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import cast
+from typing import Any, TypeAlias, cast
 
-from sqlalchemy import ColumnClause, func, literal_column, select
+from sqlalchemy import ColumnClause, ColumnElement, Row, literal_column, select
 from sqlalchemy.orm import Session
 
 from server.store.cases import new_id
+from server.store.checksums import document_checksum
 from server.store.errors import NotFound, StoreConflict, StoreError
-from server.store.records import Document, DocumentKind, ImportRecord, Withdrawal
-from server.store.tables import COMPLETE, BasisRow, DocumentFileRow, DocumentRow, FileRow
+from server.store.records import Document, DocumentKind, Heading, ImportRecord, Withdrawal
+from server.store.tables import (
+    COMPLETE,
+    BasisRow,
+    DocumentFileRow,
+    DocumentRow,
+    FileRow,
+    NewestVersionRow,
+)
 from server.store.validation import content_to_json, validate_name
 from tracker.errors import InvalidInput
 
 # Order of insertion; time stamps are not monotonic, because clocks can be set back.
 IN_ORDER: ColumnClause[int] = literal_column("documents.rowid")
+AnyRow: TypeAlias = Row[*tuple[Any, ...]]
+# So that the contents of a case are not in memory all at once.
+IN_PARTS = {"yield_per": 20}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,14 +91,31 @@ def add_document(session: Session, case_id: str, new: NewDocument, *, now: str) 
         made_at=now,
         made_by=new.made_by,
     )
+    insert_document(session, row, new.depends_on, new.files)
+    return Document.of(_heading_of(row, new.depends_on, new.files), content_of(row.content))
+
+
+def insert_document(
+    session: Session, row: DocumentRow, depends_on: Sequence[str], files: Sequence[str]
+) -> None:
+    """Insert the row of a document, with its checksum, dependencies and files."""
+    row.checksum = document_checksum(row, depends_on, files)
     session.add(row)
     session.flush()
-    for place, basis in enumerate(new.depends_on):
-        session.add(BasisRow(case_id=case_id, document_id=row.id, place=place, basis_id=basis))
-    for place, file in enumerate(new.files):
-        session.add(DocumentFileRow(case_id=case_id, document_id=row.id, place=place, file_id=file))
+    for place, basis in enumerate(depends_on):
+        session.add(BasisRow(case_id=row.case_id, document_id=row.id, place=place, basis_id=basis))
+    for place, file in enumerate(files):
+        session.add(DocumentFileRow(case_id=row.case_id, document_id=row.id, place=place, file_id=file))
+    session.merge(NewestVersionRow(case_id=row.case_id, kind=row.kind, name=row.name, version=row.version))
     session.flush()
-    return document_of(row, new.depends_on, new.files)
+
+
+def withdraw_document(session: Session, document: Heading, withdrawal: Withdrawal) -> None:
+    """Add the withdrawal to the row of an intact document."""
+    row = session.get_one(DocumentRow, (document.case_id, document.id))
+    row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason = withdrawal.at, withdrawal.by, withdrawal.reason
+    row.checksum = document_checksum(row, document.depends_on, document.files)
+    session.flush()
 
 
 def find_document(session: Session, case_id: str, document_id: str) -> Document:
@@ -94,75 +123,109 @@ def find_document(session: Session, case_id: str, document_id: str) -> Document:
 
     Raises:
         NotFound: DOCUMENT_UNKNOWN.
+        StoreError: DOCUMENT_DAMAGED.
     """
-    return _read(session, [document_row(session, case_id, document_id)])[0]
+    (found,) = read_documents(session, case_id, [document_id])
+    return found
 
 
-def document_row(session: Session, case_id: str, document_id: str) -> DocumentRow:
-    """Return the row of a document.
+def read_documents(session: Session, case_id: str, ids: Sequence[str]) -> tuple[Document, ...]:
+    """Return documents in this order.
 
     Raises:
         NotFound: DOCUMENT_UNKNOWN.
+        StoreError: DOCUMENT_DAMAGED.
     """
-    row = session.get(DocumentRow, (case_id, document_id))
-    if row is None:
-        raise document_unknown(case_id, document_id)
-    return row
-
-
-def versions(session: Session, case_id: str, kind: DocumentKind, name: str) -> tuple[Document, ...]:
-    """Return all versions in ascending order."""
-    chosen = (
-        select(DocumentRow)
-        .where(DocumentRow.case_id == case_id, DocumentRow.kind == kind.value, DocumentRow.name == name)
-        .order_by(DocumentRow.version)
-    )
-    return _read(session, session.scalars(chosen).all())
+    found: dict[str, Document] = {}
+    for stored in stored_documents(session, case_id, DocumentRow.id.in_(ids)):
+        if stored.heading is None:
+            raise document_damaged(case_id, stored.id)
+        found[stored.id] = Document.of(stored.heading, content_of(stored.content))
+    for unknown in set(ids) - found.keys():
+        raise document_unknown(case_id, unknown)
+    return tuple(found[one] for one in ids)
 
 
 def every_document(session: Session, case_id: str) -> Iterator[Document]:
-    """Yield all documents of a case, each after those that it depends on."""
-    bases, files = links_of(session, case_id)
-    for row in session.scalars(
-        select(DocumentRow)
-        .where(DocumentRow.case_id == case_id)
-        .order_by(IN_ORDER)
-        .execution_options(yield_per=20)
-    ):
-        yield document_of(row, bases[row.id], files[row.id])
+    """Yield all documents of a case, each after those that it depends on; StoreError DOCUMENT_DAMAGED."""
+    for stored in stored_documents(session, case_id):
+        if stored.heading is None:
+            raise document_damaged(case_id, stored.id)
+        yield Document.of(stored.heading, content_of(stored.content))
 
 
-def contents_of(session: Session, case_id: str, ids: Sequence[str]) -> dict[str, Mapping[str, object]]:
-    """Return the contents of documents by their ids."""
-    chosen = select(DocumentRow.id, DocumentRow.content).where(
-        DocumentRow.case_id == case_id, DocumentRow.id.in_(ids)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredDocument:
+    """A row of a document, as it was read.
+
+    Attributes:
+        row: number of the row.
+        id: id of the document; like kind, name and version any value if the row is damaged.
+        kind: its kind.
+        name: its name.
+        version: its version.
+        content: its content as JSON.
+        heading: its heading; None if the row does not match its checksum.
+    """
+
+    row: int
+    id: str
+    kind: str
+    name: str
+    version: int
+    content: str
+    heading: Heading | None
+
+
+def stored_documents(
+    session: Session, case_id: str, *chosen: ColumnElement[bool]
+) -> Iterator[StoredDocument]:
+    """Yield documents in the order in which they were stored, each compared with its checksum."""
+    condition = (DocumentRow.case_id == case_id, *chosen)
+    bases, files = _links_of(
+        session, case_id, session.scalars(select(DocumentRow.id).where(*condition)).all()
     )
-    return {row.id: _content_of(case_id, row.id, row.content) for row in session.execute(chosen)}
+    # Not as objects: a row without a key, which a damaged one can be, would be skipped.
+    columns = (IN_ORDER.label("row"), *DocumentRow.__table__.columns)
+    rows = session.execute(select(*columns).where(*condition).order_by(IN_ORDER), execution_options=IN_PARTS)
+    for row in rows:
+        depends_on, belonging = bases.get(row.id, []), files.get(row.id, [])
+        # A row that is found by a damaged index is of another case, and intact.
+        intact = row.case_id == case_id and row.checksum == document_checksum(row, depends_on, belonging)
+        yield StoredDocument(
+            row=row.row,
+            id=row.id,
+            kind=row.kind,
+            name=row.name,
+            version=row.version,
+            content=row.content,
+            heading=_heading_of(row, depends_on, belonging) if intact else None,
+        )
 
 
-def _content_of(case_id: str, document_id: str, stored: str) -> Mapping[str, object]:
-    """Return the content of a row; a byte that was changed on the disk may have left no JSON."""
-    try:
-        content = json.loads(stored)
-    except (ValueError, TypeError, RecursionError) as error:
-        raise StoreError(
-            "DOCUMENT_DAMAGED",
-            f"the document {document_id} of the case {case_id} is damaged on the disk",
-            "Check the disk, and restore the server's folder from a copy; other cases can be used.",
-            {"case_id": case_id, "document_id": document_id},
-        ) from error
-    return cast("Mapping[str, object]", content)
+def content_of(stored: str) -> Mapping[str, object]:
+    """Return the content of an intact row."""
+    return cast("Mapping[str, object]", json.loads(stored))
 
 
-def document_of(row: DocumentRow, depends_on: Iterable[str], files: Iterable[str]) -> Document:
-    """Return the record of a row."""
-    return Document(
+def document_damaged(case_id: str, document_id: object) -> StoreError:
+    """Return the error for a document that does not match its checksum."""
+    return StoreError(
+        "DOCUMENT_DAMAGED",
+        f"the document {document_id} of the case {case_id} is damaged on the disk",
+        "Do its step again, or open the list of documents and go on with the version before it. Then check "
+        "the disk.",
+        {"case_id": case_id, "document_id": f"{document_id}"},
+    )
+
+
+def _heading_of(row: DocumentRow | AnyRow, depends_on: Iterable[str], files: Iterable[str]) -> Heading:
+    return Heading(
         case_id=row.case_id,
         id=row.id,
         kind=DocumentKind(row.kind),
         name=row.name,
         version=row.version,
-        content=_content_of(row.case_id, row.id, row.content),
         made_at=row.made_at,
         made_by=row.made_by,
         depends_on=tuple(depends_on),
@@ -182,38 +245,52 @@ def withdrawal_of(at: str | None, by: str | None, reason: str | None) -> Withdra
     return None if at is None else Withdrawal(at=at, by=by or "", reason=reason or "")
 
 
-def _read(session: Session, rows: Sequence[DocumentRow]) -> tuple[Document, ...]:
-    if not rows:
-        return ()
-    case_id, ids = rows[0].case_id, [row.id for row in rows]
-    bases, files = links_of(session, case_id, ids)
-    return tuple(document_of(row, bases[row.id], files[row.id]) for row in rows)
-
-
-def links_of(
-    session: Session, case_id: str, ids: Sequence[str] | None = None
+def _links_of(
+    session: Session, case_id: str, ids: Sequence[str]
 ) -> tuple[Mapping[str, list[str]], Mapping[str, list[str]]]:
-    """Return dependencies and files by document id; of all documents if no ids are given."""
+    """Return dependencies and files by document id."""
     bases: Mapping[str, list[str]] = defaultdict(list)
     files: Mapping[str, list[str]] = defaultdict(list)
-    of_bases = select(BasisRow).where(BasisRow.case_id == case_id).order_by(BasisRow.place)
-    of_files = (
-        select(DocumentFileRow).where(DocumentFileRow.case_id == case_id).order_by(DocumentFileRow.place)
+    of_bases = select(BasisRow.document_id, BasisRow.basis_id).where(BasisRow.case_id == case_id)
+    of_files = select(DocumentFileRow.document_id, DocumentFileRow.file_id).where(
+        DocumentFileRow.case_id == case_id
     )
     # A query accepts a limited number of ids; above it, most documents of the case are needed anyway.
-    if ids is not None and len(ids) <= 500:
+    if len(ids) <= 500:
         of_bases = of_bases.where(BasisRow.document_id.in_(ids))
         of_files = of_files.where(DocumentFileRow.document_id.in_(ids))
-    for basis in session.scalars(of_bases):
-        bases[basis.document_id].append(basis.basis_id)
-    for file in session.scalars(of_files):
-        files[file.document_id].append(file.file_id)
+    for document_id, basis_id in session.execute(of_bases.order_by(BasisRow.place)):
+        bases[document_id].append(basis_id)
+    for document_id, file_id in session.execute(of_files.order_by(DocumentFileRow.place)):
+        files[document_id].append(file_id)
     return bases, files
 
 
+def newest_version(max_intact: int, recorded: object) -> int:
+    """Return the number of the newest version, which can be lost.
+
+    Args:
+        max_intact: highest version of which the row is intact; 0 if there is none.
+        recorded: number of the newest version according to `NewestVersionRow`; None if that row is lost.
+    """
+    if isinstance(recorded, int):
+        return max(max_intact, recorded)
+    return max_intact + 1 if max_intact else 0
+
+
+def recorded_versions(session: Session, case_id: str) -> dict[tuple[str, str], object]:
+    """Return the recorded number of the newest version by kind and name."""
+    columns = (NewestVersionRow.kind, NewestVersionRow.name, NewestVersionRow.version)
+    rows = session.execute(select(*columns).where(NewestVersionRow.case_id == case_id))
+    return {(row.kind, row.name): row.version for row in rows}
+
+
 def _next_version(session: Session, case_id: str, new: NewDocument) -> int:
-    same = (DocumentRow.case_id == case_id, DocumentRow.kind == new.kind.value, DocumentRow.name == new.name)
-    found = session.scalar(select(func.max(DocumentRow.version)).where(*same)) or 0
+    same = (DocumentRow.kind == new.kind.value, DocumentRow.name == new.name)
+    stored = list(stored_documents(session, case_id, *same))
+    record = session.get(NewestVersionRow, (case_id, new.kind.value, new.name))
+    intact = max((one.version for one in stored if one.heading is not None), default=0)
+    found = newest_version(intact, None if record is None else record.version)
     if new.expected_version is not None and new.expected_version != found:
         raise StoreConflict(
             "VERSION_CONFLICT",
@@ -227,7 +304,9 @@ def _next_version(session: Session, case_id: str, new: NewDocument) -> int:
                 "name": new.name,
             },
         )
-    return found + 1
+    # A damaged row can have any version.
+    taken = {one.version for one in stored}
+    return next(version for version in itertools.count(found + 1) if version not in taken)
 
 
 def _reject_strange(session: Session, case_id: str, new: NewDocument) -> None:

@@ -16,6 +16,7 @@ from sqlalchemy.orm import Session
 
 from server.store.case_database import CaseDatabase
 from server.store.cases import case_row, new_id
+from server.store.checksums import file_checksum
 from server.store.documents import file_unknown
 from server.store.errors import StoreError, translate_errors
 from server.store.home import PRIVATE, sync_file, sync_folder
@@ -137,15 +138,22 @@ def file_of(database: CaseDatabase, row: FileRow) -> StoredFile:
     )
 
 
+def is_intact(row: FileRow) -> bool:
+    """Return whether a row matches its checksum."""
+    return row.checksum == file_checksum(row)
+
+
 def find_file(database: CaseDatabase, session: Session, case_id: str, file_id: str) -> StoredFile:
     """Return a file.
 
     Raises:
         NotFound: CASE_UNKNOWN, FILE_UNKNOWN.
-        StoreError: FILE_DAMAGED, it is missing on the disk.
+        StoreError: FILE_DAMAGED, it is missing on the disk, or its row does not match its checksum.
     """
     case_row(session, case_id)
     row = session.get(FileRow, (case_id, file_id))
+    if row is not None and not is_intact(row):
+        raise file_damaged(file_of(database, row), "its entry in the database was changed")
     if row is None or row.state != COMPLETE:
         raise file_unknown(case_id, file_id)
     file = file_of(database, row)
@@ -165,31 +173,69 @@ def file_damaged(file: StoredFile, why: str) -> StoreError:
 
 
 def all_files(database: CaseDatabase, session: Session, case_id: str) -> tuple[StoredFile, ...]:
-    """Return all complete files of a case, oldest first."""
-    chosen = select(FileRow).where(FileRow.case_id == case_id, FileRow.state == COMPLETE)
-    return tuple(
-        file_of(database, row) for row in session.scalars(chosen.order_by(FileRow.made_at, FileRow.id))
-    )
+    """Return all complete files of a case, oldest first.
+
+    Raises:
+        StoreError: FILE_DAMAGED, a row does not match its checksum.
+    """
+    intact, damaged = _file_rows(session, case_id)
+    for row in damaged:
+        raise file_damaged(file_of(database, row), "its entry in the database was changed")
+    files = [file_of(database, row) for row in intact if row.state == COMPLETE]
+    return tuple(sorted(files, key=lambda file: (file.made_at, file.id)))
+
+
+def _file_rows(session: Session, case_id: str) -> tuple[list[FileRow], list[FileRow]]:
+    """Return the intact and the damaged rows of the files of a case."""
+    rows = session.scalars(select(FileRow).where(FileRow.case_id == case_id))
+    found = [row for row in rows if row is not None]
+    return [row for row in found if is_intact(row)], [row for row in found if not is_intact(row)]
 
 
 def find_damage(database: CaseDatabase, case_id: str) -> tuple[Damage, ...]:
-    """Read every file of a case, and return those that are missing or damaged."""
+    """Read every file and document of a case, and return those that are missing or damaged."""
     with database.in_use(case_id):
         with database.read_session() as session:
             case_row(session, case_id)
-            files = all_files(database, session, case_id)
+            intact, damaged = _file_rows(session, case_id)
+            files = [file_of(database, row) for row in intact if row.state == COMPLETE]
+            entries = [f"{row.id}" for row in damaged]
             headings = lineage_of(session, case_id).headings.values()
-        found = ((file, _problem(file)) for file in files)
-        return tuple(
-            Damage(
-                file_id=file.id,
-                problem=problem[0],
-                message=problem[1],
-                documents=tuple(heading.title for heading in headings if file.id in heading.files),
-            )
-            for file, problem in found
-            if problem is not None
+        known = {file.id for file in files}
+        missing = {file for heading in headings for file in heading.files} - known
+        problems = [
+            ("content", f"the entry of the file {file} in the database is missing or was changed", file)
+            for file in sorted(missing.union(entries))
+        ]
+        problems += [(*problem, file.id) for file in files if (problem := _problem(file)) is not None]
+        return (
+            *(
+                Damage(
+                    file_id=file,
+                    problem=problem,
+                    message=message,
+                    documents=tuple(heading.title for heading in headings if file in heading.files),
+                )
+                for problem, message, file in problems
+            ),
+            *(
+                Damage(
+                    file_id=heading.id,
+                    problem="document",
+                    message="a document is damaged in the database",
+                    documents=(heading.title,),
+                )
+                for heading in headings
+                if heading.is_damaged
+            ),
         )
+
+
+def reject_damaged(file: StoredFile) -> None:
+    """Read a file, and raise StoreError FILE_DAMAGED if its content differs from what was stored."""
+    problem = _problem(file)
+    if problem is not None:
+        raise file_damaged(file, "it is missing" if problem[0] == "missing" else "its SHA-256 differs")
 
 
 def _problem(file: StoredFile) -> tuple[str, str] | None:

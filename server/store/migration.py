@@ -1,8 +1,6 @@
 """Migration of the database to the current schema, by Alembic; an older database is backed up before."""
 
-import sqlite3
 from collections.abc import Callable
-from contextlib import closing
 from datetime import datetime
 from pathlib import Path
 
@@ -13,9 +11,9 @@ from alembic.script import ScriptDirectory
 from alembic.util.exc import CommandError
 from sqlalchemy import Engine
 
-from server.store.database import raw_connection, with_immediate_transactions
+from server.store.database import back_up, with_immediate_transactions
 from server.store.errors import StoreError
-from server.store.home import Home, sync_folder
+from server.store.home import Home
 
 
 def migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migrations: Path) -> None:
@@ -35,7 +33,7 @@ def migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migratio
         return
     if revision is not None:
         _reject_unknown(ScriptDirectory.from_config(config), revision, home)
-        _back_up(engine, home, name=f"coaxial-{revision}-{now():%Y%m%dT%H%M%SZ}.sqlite3")
+        back_up(engine, home, name=f"coaxial-{revision}-{now():%Y%m%dT%H%M%SZ}.sqlite3")
     with with_immediate_transactions(engine).begin() as connection:
         config.attributes["connection"] = connection
         command.upgrade(config, "head")
@@ -57,13 +55,3 @@ def _reject_unknown(scripts: ScriptDirectory, revision: str, home: Home) -> None
                 "newest": scripts.get_current_head(),
             },
         ) from error
-
-
-def _back_up(engine: Engine, home: Home, *, name: str) -> None:
-    """Make a durable backup of the database before the migration."""
-    part = home.backups / f"{name}.part"
-    with raw_connection(engine) as source, closing(sqlite3.connect(part)) as target:
-        target.execute("PRAGMA synchronous = FULL")
-        source.backup(target)
-    part.replace(home.backups / name)
-    sync_folder(home.backups)

@@ -44,6 +44,7 @@ class Case:
         created_at: UTC, ISO 8601 with milliseconds.
         changed_at: time of the last change.
         copied_from: id of the exported case, if it was imported from an archive.
+        is_damaged: whether its row does not match its checksum, so that name and times may be wrong.
     """
 
     id: str
@@ -51,6 +52,7 @@ class Case:
     created_at: str
     changed_at: str
     copied_from: str | None = None
+    is_damaged: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,6 +104,8 @@ class Heading:
         files: ids of the files that belong to it.
         withdrawn: its withdrawal; None if it is not withdrawn.
         imported: its import; None if it was made here.
+        is_damaged: whether the version is lost: its row is missing or does not match its checksum. Then only
+            kind, name and version are known.
     """
 
     case_id: str
@@ -115,6 +119,12 @@ class Heading:
     files: tuple[str, ...] = ()
     withdrawn: Withdrawal | None = None
     imported: ImportRecord | None = None
+    is_damaged: bool = False
+
+    @property
+    def is_usable(self) -> bool:
+        """Whether it is neither withdrawn nor damaged."""
+        return self.withdrawn is None and not self.is_damaged
 
     @property
     def maker(self) -> str:
@@ -176,7 +186,7 @@ class StoredFile:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Current:
-    """The document and all that it depends on are the newest versions, and none is withdrawn."""
+    """The document and all that it depends on are the newest versions, and none is withdrawn or damaged."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -213,13 +223,13 @@ class Entry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Damage:
-    """A file that differs from what was stored.
+    """A file or document that differs from what was stored.
 
     Attributes:
-        file_id: the file.
-        problem: "missing", "size" or "content".
+        file_id: the file, or the document.
+        problem: "missing", "size", "content" or "document".
         message: description with numbers.
-        documents: titles of the documents that refer to it.
+        documents: titles of the documents that refer to it, or of the document itself.
     """
 
     file_id: str

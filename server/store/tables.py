@@ -3,8 +3,18 @@
 A change here needs a new file in `migrations/versions`; a test compares the two.
 """
 
-from sqlalchemy import CheckConstraint, ForeignKey, ForeignKeyConstraint, Index, UniqueConstraint
-from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
+from sqlalchemy import (
+    CheckConstraint,
+    Connection,
+    ForeignKey,
+    ForeignKeyConstraint,
+    Index,
+    UniqueConstraint,
+    event,
+)
+from sqlalchemy.orm import DeclarativeBase, Mapped, Mapper, mapped_column
+
+from server.store.checksums import case_checksum, file_checksum
 
 # States of a case, and of a file. The values are stored in databases.
 IMPORTING, PRESENT, DELETING = "arriving", "here", "leaving"
@@ -27,6 +37,7 @@ class CaseRow(Table):
     created_at: Mapped[str]
     changed_at: Mapped[str]
     copied_from: Mapped[str | None]
+    checksum: Mapped[str]
 
 
 class OpenCaseRow(Table):
@@ -40,7 +51,7 @@ class OpenCaseRow(Table):
 
 
 class DocumentRow(Table):
-    """One version of a document; only its withdrawal can be added."""
+    """One version of a document; only its withdrawal can be added, which changes its checksum."""
 
     __tablename__ = "documents"
     __table_args__ = (
@@ -61,6 +72,18 @@ class DocumentRow(Table):
     withdrawn_reason: Mapped[str | None]
     imported_by: Mapped[str | None]
     imported_at: Mapped[str | None]
+    checksum: Mapped[str]
+
+
+class NewestVersionRow(Table):
+    """Number of the newest version of a document, so that a lost row does not make an older version valid."""
+
+    __tablename__ = "newest_versions"
+
+    case_id: Mapped[str] = mapped_column(ForeignKey("cases.id", ondelete="CASCADE"), primary_key=True)
+    kind: Mapped[str] = mapped_column(primary_key=True)
+    name: Mapped[str] = mapped_column(primary_key=True)
+    version: Mapped[int]
 
 
 class FileRow(Table):
@@ -75,6 +98,7 @@ class FileRow(Table):
     size_bytes: Mapped[int]
     sha256: Mapped[str]
     made_at: Mapped[str]
+    checksum: Mapped[str]
 
 
 class BasisRow(Table):
@@ -113,3 +137,15 @@ class DocumentFileRow(Table):
     document_id: Mapped[str] = mapped_column(primary_key=True)
     place: Mapped[int] = mapped_column(primary_key=True)
     file_id: Mapped[str]
+
+
+@event.listens_for(CaseRow, "before_insert")
+@event.listens_for(CaseRow, "before_update")
+def _add_case_checksum(_mapper: Mapper[CaseRow], _connection: Connection, row: CaseRow) -> None:
+    row.checksum = case_checksum(row)
+
+
+@event.listens_for(FileRow, "before_insert")
+@event.listens_for(FileRow, "before_update")
+def _add_file_checksum(_mapper: Mapper[FileRow], _connection: Connection, row: FileRow) -> None:
+    row.checksum = file_checksum(row)

@@ -1,21 +1,28 @@
-"""Validity of documents: nothing that they depend on was replaced or withdrawn."""
+"""Validity of documents: nothing that they depend on was replaced or withdrawn, or damaged by the disk."""
 
+import hashlib
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from server.store.documents import IN_ORDER, imported_of, links_of, withdrawal_of
+from server.store.documents import (
+    IN_ORDER,
+    StoredDocument,
+    newest_version,
+    recorded_versions,
+    stored_documents,
+)
 from server.store.records import Current, DocumentKind, Heading, OutOfDate, Validity
-from server.store.tables import DocumentRow
 from server.texts import Text, Value, reason, withdrawal_text
+
+KINDS = frozenset(kind.value for kind in DocumentKind)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Fault:
-    """Why a document is invalid: the nearest document in its lineage that was replaced or withdrawn."""
+    """Why a document is invalid: the nearest document in its lineage that is not what it depends on."""
 
     steps: int
     title: Text
@@ -27,27 +34,78 @@ class Lineage:
     """Documents of one case, each after those that it depends on.
 
     Attributes:
-        headings: of all versions of all documents, by id.
+        case_id: the case.
+        headings: of all versions of all documents, by id; those that are damaged come last.
         last_row: row of the last of them.
     """
 
-    def __init__(self) -> None:
-        self.headings: dict[str, Heading] = {}
+    def __init__(self, case_id: str = "") -> None:
+        self.case_id = case_id
+        self.headings: Mapping[str, Heading] = {}
         self.last_row = 0
+        self._intact: dict[str, Heading] = {}
+        # Ids of damaged rows by what is read as their kind, name and version.
+        self._damaged_rows: dict[tuple[object, object, object], str] = {}
         self._newest: defaultdict[DocumentKind, dict[str, Heading]] = defaultdict(dict)
         self._faults: dict[str, _Fault | None] = {}
 
-    def add(self, heading: Heading) -> None:
-        """Add the next version of a document."""
-        self.headings[heading.id] = heading
-        before = self._newest[heading.kind].get(heading.name)
-        if before is None or before.version < heading.version:
-            self._newest[heading.kind][heading.name] = heading
+    def add(self, document: StoredDocument) -> None:
+        """Add the next version of a document; `complete` has to follow."""
+        self.last_row = document.row
+        if document.heading is None:
+            self._damaged_rows[document.kind, document.name, document.version] = f"{document.id}"
+        else:
+            self._intact[document.heading.id] = document.heading
+
+    def complete(self, recorded: Mapping[tuple[str, str], object]) -> None:
+        """Find which versions are lost, after documents were added.
+
+        A version counts as lost where no intact row has it; which one a damaged row is does not follow from
+        what it contains.
+
+        Args:
+            recorded: number of the newest version by kind and name.
+        """
+        self.headings = self._intact | {one.id: one for one in self._lost(recorded)}
         self._faults.clear()
+        self._newest.clear()
+        for heading in self.headings.values():
+            before = self._newest[heading.kind].get(heading.name)
+            if before is None or before.version < heading.version:
+                self._newest[heading.kind][heading.name] = heading
+
+    def _lost(self, recorded: Mapping[tuple[str, str], object]) -> Iterator[Heading]:
+        intact: defaultdict[tuple[str, str], set[int]] = defaultdict(set)
+        for heading in self._intact.values():
+            intact[heading.kind.value, heading.name].add(heading.version)
+        for kind, name in dict.fromkeys((*intact, *recorded)):
+            if kind not in KINDS or not isinstance(name, str):
+                continue  # a damaged record of a document whose own record is missing, therefore
+            found = intact[kind, name]
+            max_intact = max(found, default=0)
+            newest = newest_version(max_intact, recorded.get((kind, name)))
+            lost = {*range(1, max_intact)} - found | {newest} - found
+            for version in sorted(lost):
+                digest = hashlib.sha256(f"{kind} {name} {version}".encode()).hexdigest()
+                yield Heading(
+                    case_id=self.case_id,
+                    id=self._damaged_rows.get((kind, name, version), digest[:16]),
+                    kind=DocumentKind(kind),
+                    name=name,
+                    version=version,
+                    made_at="",
+                    made_by="",
+                    is_damaged=True,
+                )
 
     def newest(self, kind: DocumentKind) -> Mapping[str, Heading]:
-        """Return the newest version of each name, also if it is withdrawn."""
+        """Return the newest version of each name, also if it is withdrawn or damaged."""
         return self._newest[kind]
+
+    def last_intact(self, kind: DocumentKind, name: str) -> Heading | None:
+        """Return the newest version that is not damaged; None if there is none."""
+        named = (one for one in self._intact.values() if (one.kind, one.name) == (kind, name))
+        return max(named, key=lambda one: one.version, default=None)
 
     def validity(self, document_id: str) -> Validity:
         """Return whether a document is valid."""
@@ -59,11 +117,17 @@ class Lineage:
 
     def _fault(self, document_id: str) -> _Fault | None:
         if document_id not in self._faults:
-            heading = self.headings[document_id]
+            heading = self.headings.get(document_id)
+            if heading is None:
+                # A dependency whose row is lost, and with it which document it was.
+                title: Text = {"en": f"document {document_id}", "de": f"Dokument {document_id}"}
+                return _Fault(steps=0, title=title, code="DAMAGED", values={})
             self._faults[document_id] = self._own_fault(heading) or self._inherited_fault(heading)
         return self._faults[document_id]
 
     def _own_fault(self, heading: Heading) -> _Fault | None:
+        if heading.is_damaged:
+            return _Fault(steps=0, title=heading.title_text, code="DAMAGED", values={})
         if heading.withdrawn is not None:
             why = withdrawal_text(heading.withdrawn.reason)
             values: dict[str, Value] = {"by": heading.withdrawn.by, "why": why}
@@ -80,45 +144,14 @@ class Lineage:
 
 
 def lineage_of(session: Session, case_id: str) -> Lineage:
-    """Return the lineage of a case; contents are not read."""
-    lineage = Lineage()
-    read_lineage(session, case_id, lineage)
+    """Return the lineage of a case; contents are compared with their checksums, and not kept."""
+    lineage = Lineage(case_id)
+    for document in new_documents(session, lineage):
+        lineage.add(document)
+    lineage.complete(recorded_versions(session, case_id))
     return lineage
 
 
-def read_lineage(session: Session, case_id: str, lineage: Lineage) -> None:
-    """Add the documents that were stored since the lineage was read; withdrawals since then are not seen."""
-    columns = (
-        IN_ORDER.label("row"),
-        DocumentRow.id,
-        DocumentRow.kind,
-        DocumentRow.name,
-        DocumentRow.version,
-        DocumentRow.made_at,
-        DocumentRow.made_by,
-        DocumentRow.withdrawn_at,
-        DocumentRow.withdrawn_by,
-        DocumentRow.withdrawn_reason,
-        DocumentRow.imported_at,
-        DocumentRow.imported_by,
-    )
-    chosen = select(*columns).where(DocumentRow.case_id == case_id, lineage.last_row < IN_ORDER)
-    rows = session.execute(chosen.order_by(IN_ORDER)).all()
-    bases, files = links_of(session, case_id, [row.id for row in rows])
-    for row in rows:
-        lineage.last_row = row.row
-        lineage.add(
-            Heading(
-                case_id=case_id,
-                id=row.id,
-                kind=DocumentKind(row.kind),
-                name=row.name,
-                version=row.version,
-                made_at=row.made_at,
-                made_by=row.made_by,
-                depends_on=tuple(bases[row.id]),
-                files=tuple(files[row.id]),
-                withdrawn=withdrawal_of(row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason),
-                imported=imported_of(row.imported_at, row.imported_by),
-            )
-        )
+def new_documents(session: Session, lineage: Lineage) -> Iterator[StoredDocument]:
+    """Yield the documents that were stored since the lineage was read, but not withdrawals since then."""
+    return stored_documents(session, lineage.case_id, lineage.last_row < IN_ORDER)

@@ -236,6 +236,9 @@ REASONS: Mapping[str, Sentence] = {
     "WITHDRAWN": Sentence(
         {"en": "{title} was withdrawn by {by}: {why}", "de": "{title} wurde zurückgezogen von {by}: {why}"}
     ),
+    "DAMAGED": Sentence(
+        {"en": "{title} is damaged on the disk", "de": "{title} ist auf der Platte beschädigt"}
+    ),
     "REPLACED": Sentence(
         {
             "en": "{title} was replaced by version {version}",
@@ -246,6 +249,12 @@ REASONS: Mapping[str, Sentence] = {
         {
             "en": "it depends on {title}, which was withdrawn by {by}: {why}",
             "de": "beruht auf {title}, zurückgezogen von {by}: {why}",
+        }
+    ),
+    "BASIS_DAMAGED": Sentence(
+        {
+            "en": "it depends on {title}, which is damaged on the disk",
+            "de": "beruht auf {title}, auf der Platte beschädigt",
         }
     ),
     "BASIS_REPLACED": Sentence(

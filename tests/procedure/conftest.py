@@ -127,6 +127,12 @@ def _receiver(config: Config, home: Home) -> DicomReceiver:
     return receiver
 
 
+def _captured_at_s(hub: LiveHub) -> float:
+    """Time of the newest image, which the tests set."""
+    snapshot = None if hub.newest is None else hub.newest.snapshot
+    return 0.0 if snapshot is None else snapshot.captured_at_s
+
+
 @contextmanager
 def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> Iterator[Server]:
     """All parts of a server with this home folder."""
@@ -143,7 +149,11 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
             jobs=jobs,
             config=config,
             markers=preparation.models,
-            tracking=TrackingLink(publish_setup=adopted.append, tracked_from_s=lambda: tracked_from_s[-1]),
+            tracking=TrackingLink(
+                publish_setup=adopted.append,
+                tracked_from_s=lambda: tracked_from_s[-1],
+                image_clock=lambda: _captured_at_s(hub),
+            ),
         )
         recordings = recordings_without_process(store, config)
         dicom = _receiver(config, home) if config.dicom.receive.port is not None else None

@@ -1,5 +1,6 @@
 """Kill a whole server with `kill -9` during a procedure: the web process, tracking, or both.
 
+    make kills MINUTES=15
     PYTHONPATH=. python -m tests.procedure.killed --times 50 --seed 1 [--from empty] [--kills-each 10]
 
 Users do the procedure on the rehearsal through the API. After each kill the server is started again with the
@@ -10,6 +11,7 @@ procedures have a patient marker, even ones do not.
 """
 
 import argparse
+import math
 import random
 import sys
 import tempfile
@@ -33,6 +35,7 @@ from tests.procedure.real_server import unended_server
 from tests.procedure.team import Team
 
 TARGETS = ("web", "tracking", "both")
+MAX_KILLS = 100_000
 STOPPED = {"NOT_CONFIRMED", "NOT_CHECKED"}
 COLUMNS = "{:>4} {:<9} {:<4} {:<22} {:>7} {:>9} {:>7}  {}\n"
 
@@ -192,17 +195,20 @@ def kills(times: int, *, seed: int, empty: bool, each: int, longest_s: float) ->
 def main() -> None:
     """Run the kills and print the results."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--times", type=int, default=50)
+    parser.add_argument("--times", type=int, help="number of kills; 50 unless minutes are given")
+    parser.add_argument("--minutes", type=float, default=math.inf, help="no kill begins after them")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--from", dest="start", choices=("prepared", "empty"), default="prepared")
     parser.add_argument("--kills-each", type=int, default=10, help="in one procedure")
     parser.add_argument("--longest-s", type=float, default=6.0, help="that people work before a kill")
     given = parser.parse_args()
+    times = given.times or (50 if math.isinf(given.minutes) else MAX_KILLS)
+    end_s = time.monotonic() + 60.0 * given.minutes
     tell = sys.stdout.write
     tell(COLUMNS.format("kill", "killed", "", "while", "changes", "back in s", "broken", "stopped by"))
     reported: list[Kill] = []
     for one in kills(
-        given.times,
+        times,
         seed=given.seed,
         empty=given.start == "empty",
         each=given.kills_each,
@@ -213,6 +219,8 @@ def main() -> None:
         tell(COLUMNS.format(*row, one.stopped_by))
         tell("".join(f"       {what}\n" for what in one.broken))
         sys.stdout.flush()
+        if time.monotonic() > end_s:
+            break
     broken = sum(len(one.broken) for one in reported)
     changes = sum(one.confirmed for one in reported)
     tell(f"{len(reported)} kills, {changes} confirmed changes, {broken} promises broken\n")

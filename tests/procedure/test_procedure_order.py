@@ -110,7 +110,7 @@ HERE, BEFORE = "this run", "an earlier run"
         pytest.param("camera", HERE, (HERE, 5, False), FAILED, id="failed"),
         pytest.param("camera", HERE, (HERE, 30, True), DUE, id="half-an-hour-old"),
         pytest.param("camera", HERE, (HERE, 29, True), DONE, id="nearly-half-an-hour-old"),
-        pytest.param("camera", HERE, (HERE, -3, True), DUE, id="made-in-the-future"),
+        pytest.param("reference", BEFORE, (BEFORE, -3, True), DUE, id="made-in-the-future"),
         pytest.param("camera", BEFORE, (BEFORE, 5, True), OLD, id="started-again"),
         pytest.param("camera", BEFORE, (BEFORE, 5, False), FAILED, id="failed-and-started-again"),
         pytest.param("camera", BEFORE, (HERE, 5, True), DONE, id="checked-since-the-start"),
@@ -121,6 +121,29 @@ HERE, BEFORE = "this run", "an earlier run"
 def test_a_check_holds_for_its_time_and_its_run(
     anchored_to: str, registered_in: str, check: tuple[str, float, bool] | None, state: StepState
 ) -> None:
+    found = found_check(anchored_to, registered_in, check)
+    assert found.state is state
+    assert found.reason.message["de"]
+    assert bool(found.reason.remedy["de"]) is (state is not DONE)
+
+
+@pytest.mark.parametrize("clock_set_min", [-60.0, 60.0])
+@pytest.mark.parametrize(("minutes", "state"), [(5.0, DONE), (45.0, DUE)])
+def test_a_check_of_this_run_ages_by_the_image_clock(
+    clock_set_min: float, minutes: float, state: StepState
+) -> None:
+    found = found_check("camera", HERE, (HERE, minutes, True), clock_set_min=clock_set_min)
+    assert (found.state, found.numbers["age_min"]) == (state, minutes)
+
+
+def found_check(
+    anchored_to: str,
+    registered_in: str,
+    check: tuple[str, float, bool] | None,
+    *,
+    clock_set_min: float = 0.0,
+) -> Finding:
+    """The finding on a check of this run, age in minutes and result; the clock was set after it by some."""
     eye = [[float(row == column) for column in range(6)] for row in range(6)]
     registration = RegistrationRecord(
         vertebra="L3",
@@ -143,7 +166,7 @@ def test_a_check_holds_for_its_time_and_its_run(
             max_mm=2.0,
             passed=passed,
             run=run,
-            from_s=1.0,
+            from_s=6000.0 - 60.0 * minutes,
             off_lps_mm=[0.0, 0.0, 0.0],
             sd_mm=0.5,
             images=15,
@@ -154,16 +177,19 @@ def test_a_check_holds_for_its_time_and_its_run(
             kind=DocumentKind.CHECK,
             name="registration of L3",
             version=1,
-            made_at=(NOW - timedelta(minutes=minutes)).isoformat(),
+            made_at=(NOW - timedelta(minutes=minutes + clock_set_min)).isoformat(),
             made_by="ito",
             content=stored.model_dump(mode="json"),
         )
-    found = check_finding(
-        registration=registration, title=as_is("it"), check=document, run=HERE, again_after_min=30, now=NOW
+    return check_finding(
+        registration=registration,
+        title=as_is("it"),
+        check=document,
+        run=HERE,
+        again_after_min=30,
+        now=NOW,
+        now_s=6000.0,
     )
-    assert found.state is state
-    assert found.reason.message["de"]
-    assert bool(found.reason.remedy["de"]) is (state is not DONE)
 
 
 def nothing(server: Server) -> None:

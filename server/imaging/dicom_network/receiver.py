@@ -4,6 +4,7 @@ A slice is answered with success when it is on the disk. A series is complete wh
 sent slices of it have been released: what a broken connection sent stays incomplete until it is sent again.
 """
 
+import math
 import socket
 import socketserver
 import ssl
@@ -20,6 +21,7 @@ from pynetdicom.dimse_primitives import C_STORE
 from pynetdicom.sop_class import Verification  # pyrefly: ignore[missing-module-attribute]  made at its import
 from pynetdicom.transport import ThreadedAssociationServer
 
+from server.clock import SteadyClock
 from server.imaging.ct_reader import list_series
 from server.imaging.dicom.header import BAD_DICOM, CT_CLASSES, text, without_warnings
 from server.imaging.dicom_network.inbox import Inbox
@@ -87,7 +89,9 @@ class Receiver:
         settings: names and TLS.
         inbox: where series are stored.
         report: called with each refusal, from any thread.
-        clock: Unix time.
+        clock: Unix time, to which the ages of files are compared. By default one that is steady, so that
+            nothing is deleted because the computer's clock was set.
+        seconds: monotonic time.
     """
 
     def __init__(
@@ -97,15 +101,18 @@ class Receiver:
         inbox: Inbox,
         *,
         report: Callable[[Remark], None],
-        clock: Callable[[], float] = time.time,
+        clock: Callable[[], float] | None = None,
+        seconds: Callable[[], float] = time.monotonic,
     ) -> None:
         self._inbox = inbox
         self._report = report
-        self._clock = clock
+        steady = SteadyClock()
+        self._clock = clock or (lambda: steady().timestamp())
+        self._seconds = seconds
         self._lock = threading.Lock()
         self._touched: dict[object, set[str]] = {}
         self._released: dict[str, float] = {}
-        self._prepared_s = 0.0
+        self._prepared_s = -math.inf
         inbox.clear_incoming()
         # Slices are written to the disk while they arrive.
         tempfile.tempdir = str(inbox.incoming)
@@ -143,9 +150,9 @@ class Receiver:
 
         Each minute, what is too old is deleted.
         """
-        now_s = self._clock()
+        now_s = self._seconds()
         if now_s - self._prepared_s > PREPARE_EACH_S:
-            self._prepare(now_s)
+            self._prepare()
         with self._lock:
             busy = set().union(*self._touched.values())
             quiet = [
@@ -161,11 +168,11 @@ class Receiver:
                 self._inbox.describe(one, Remark.from_error(error))
 
     def _requested(self, _event: evt.Event) -> None:
-        self._prepare(self._clock())
+        self._prepare()
 
-    def _prepare(self, now_s: float) -> None:
-        self._prepared_s = now_s
-        self._inbox.prepare(now_s)
+    def _prepare(self) -> None:
+        self._prepared_s = self._seconds()
+        self._inbox.prepare(self._clock())
 
     def _store(self, event: evt.Event) -> int:
         """Store one slice; return the status."""
@@ -208,7 +215,7 @@ class Receiver:
     def _release(self, event: evt.Event) -> None:
         with self._lock:
             for one in self._touched.pop(event.assoc, ()):
-                self._released[one] = self._clock()
+                self._released[one] = self._seconds()
 
     def _close(self, event: evt.Event) -> None:
         """Report what a connection leaves incomplete that ended without release."""

@@ -121,7 +121,7 @@ class PlanRepository:
         """
         ct = self._ct_provider.current()
         newest = self._store.newest_heading(ct.document.case_id, DocumentKind.PLAN, MAIN_PLAN)
-        if newest is None or newest.withdrawn is not None:
+        if newest is None or not newest.is_usable:
             return PlanDocument(), 0 if newest is None else newest.version, ct
         document = self._store.document(newest.case_id, newest.id)
         validity = self._store.validity(document)

@@ -18,6 +18,7 @@ def check_finding(
     run: str,
     again_after_min: float,
     now: datetime,
+    now_s: float,
 ) -> Finding:
     """Return the state of the check of a registration.
 
@@ -31,6 +32,7 @@ def check_finding(
         run: name of this run of the server.
         again_after_min: age from which a check is due.
         now: the time, in UTC.
+        now_s: the time on the image clock of this run.
     """
     is_loose = registration.anchored_to is AnchoredTo.CAMERA
     if check is None:
@@ -43,7 +45,10 @@ def check_finding(
         return Finding(state=StepState.MISSING, reason=reason_of_error(error))
     if record.passed and is_loose and record.run != run:
         return _after_start(registration.vertebra, check.id)
-    return _of(record, check, again_after_min=again_after_min, minutes=minutes_since(check.made_at, now))
+    # In this run not by the wall clock, which can be set: set back, it would make a due check young again.
+    since_image_min = (now_s - record.from_s) / 60.0
+    minutes = since_image_min if record.run == run else minutes_since(check.made_at, now)
+    return _of(record, check, again_after_min=again_after_min, minutes=minutes)
 
 
 def _of(record: CheckRecord, check: Document, *, again_after_min: float, minutes: float) -> Finding:

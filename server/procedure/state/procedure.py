@@ -1,6 +1,7 @@
 """The state of the procedure, read from the documents of the open case."""
 
 import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import datetime
@@ -29,7 +30,7 @@ from server.procedure.state.cosignatures import missing_cosignatures
 from server.procedure.state.procedure_state import ProcedureState, derive_state, no_case
 from server.procedure.state.records import Finding, StepName, StepState
 from server.procedure.tool import tool_from_document
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Current, Document, DocumentKind, Heading, OutOfDate, Validity
 from server.texts import METHODS, Reason, reason, reason_of_error, withdrawal_text
 from tracker.errors import NavigationError
 from tracker.plan import plan_from_mapping
@@ -67,6 +68,7 @@ class Procedure:
         tracked_from_s: start of the current tracking process, on the image clock.
         cosign: which documents require a co-signature.
         clock: the wall clock, in UTC.
+        seconds: the image clock, which is monotonic.
     """
 
     def __init__(
@@ -80,6 +82,7 @@ class Procedure:
         tracked_from_s: Callable[[], float] = lambda: -math.inf,
         cosign: CosignConfig | None = None,
         clock: Callable[[], datetime] = utc_now,
+        seconds: Callable[[], float] = time.monotonic,
     ) -> None:
         self._store = store
         self._labels = labels
@@ -89,6 +92,7 @@ class Procedure:
         self._tracked_from_s = tracked_from_s
         self.cosign = cosign or CosignConfig()
         self._clock = clock
+        self._seconds = seconds
 
     def state(self) -> ProcedureState:
         """Return the current state of all steps."""
@@ -192,6 +196,8 @@ class Procedure:
         known = dict.fromkeys(self._defaults.tools)
         no_tool = reason("NO_TOOL_CALIBRATED")
         lost: list[Finding] = []
+        for damaged in self._store.damaged(case_id, DocumentKind.TOOL):
+            return _out_of_date(damaged, self._store.validity(damaged), missing=no_tool)
         documents = self._store.all(case_id, DocumentKind.TOOL)
         numbers: dict[str, float | None] = {}
         for document in documents:
@@ -255,7 +261,11 @@ class Procedure:
         numbers = {
             "method": record.method.value,
             "anchored_to": record.anchored_to.value,
-            "age_min": minutes_since(found.made_at, self._clock()),
+            "age_min": (
+                minutes_since(found.made_at, self._clock())
+                if record.from_s is None or record.run != self.run
+                else (self._seconds() - record.from_s) / 60.0
+            ),
             **record.numbers,
         }
         done = reason("REGISTERED", {"vertebra": vertebra, "method": METHODS[record.method.value]})
@@ -274,6 +284,9 @@ class Procedure:
         except NavigationError as error:
             return _unusable(registration, error)
         newest = self._store.newest_heading(case_id, DocumentKind.CHECK, check_name(vertebra))
+        if newest is not None and newest.is_damaged:
+            missing = reason("NOT_CHECKED", {"title": registration.title_text})
+            return _out_of_date(newest, self._store.validity(newest), missing=missing)
         withdrawn = None if newest is None else newest.withdrawn
         if newest is not None and withdrawn is not None and registration.id in newest.depends_on:
             return Finding(
@@ -290,6 +303,7 @@ class Procedure:
             run=self.run,
             again_after_min=self._gate.check_again_after_min,
             now=self._clock(),
+            now_s=self._seconds(),
         )
 
     def _found(self, case_id: str, kind: DocumentKind, name: str, *, missing: Reason) -> Document | Finding:
@@ -303,8 +317,12 @@ class Procedure:
         validity = self._store.validity(newest)
         if isinstance(validity, Current):
             return self._store.document(case_id, newest.id)
-        why = replace(validity.why, remedy=missing.remedy)
-        return Finding(state=StepState.OUT_OF_DATE, reason=why, document_id=newest.id)
+        return _out_of_date(newest, validity, missing=missing)
+
+
+def _out_of_date(newest: Heading, validity: Validity, *, missing: Reason) -> Finding:
+    why = replace(validity.why, remedy=missing.remedy) if isinstance(validity, OutOfDate) else missing
+    return Finding(state=StepState.OUT_OF_DATE, reason=why, document_id=newest.id)
 
 
 def _done(document: Document, done: Reason, numbers: dict[str, float | int | bool | str | None]) -> Finding:

@@ -4,11 +4,12 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime, timedelta
+from datetime import timedelta
 from pathlib import Path
 
 import structlog
 
+from server.clock import Clock, SteadyClock
 from server.security.audit import AuditLog
 from server.security.people.failed_logins import FailedLogins
 from server.security.people.file import read_people, write_people
@@ -62,7 +63,8 @@ class PeopleService:
         audit: audit log.
         required: whether sign-in is required at all.
         session_lasts: default lifetime of a session.
-        clock: wall clock in UTC: sessions end at a time of day, over restarts.
+        clock: clock in UTC: sessions end at a time of day, over restarts. By default one that is steady, so
+            that nobody is signed out, or stays signed in, because the computer's clock was set.
         seconds: monotonic clock, for the rate limits.
 
     Raises:
@@ -76,7 +78,7 @@ class PeopleService:
         audit: AuditLog,
         required: bool = True,
         session_lasts: timedelta = timedelta(hours=12),
-        clock: Callable[[], datetime] = lambda: datetime.now(tz=UTC),
+        clock: Clock | None = None,
         seconds: Callable[[], float] = time.monotonic,
     ) -> None:
         self.audit = audit
@@ -84,7 +86,7 @@ class PeopleService:
         self._folder = folder
         self._file = folder / PEOPLE_FILE
         self._session_lasts = session_lasts
-        self._clock = clock
+        self._clock = clock or SteadyClock()
         self._seconds = seconds
         self._failed_logins = FailedLogins(clock=seconds)
         self._sign_ins = RateLimiter(max_count=MAX_SIGN_INS_PER_LINK, window_s=SIGN_IN_WINDOW_S)

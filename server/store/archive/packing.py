@@ -30,10 +30,11 @@ from server.store.archive.schema import (
 )
 from server.store.case_database import CaseDatabase
 from server.store.cases import case_of, case_row
-from server.store.documents import every_document
+from server.store.documents import document_damaged, every_document
 from server.store.errors import translate_errors
 from server.store.files import CHUNK_BYTES, all_files, file_damaged
 from server.store.records import Case, Document, DocumentKind, StoredFile
+from server.store.validity import lineage_of
 
 FAST = 1  # zlib's level: half of the size for a tenth of the time
 ZIP64_FROM_BYTES = 2**31
@@ -80,7 +81,7 @@ def pack(database: CaseDatabase, case_id: str, *, with_identity: bool) -> Archiv
 
     Raises:
         NotFound: CASE_UNKNOWN.
-        StoreError: FILE_DAMAGED, a file differs from the stored one.
+        StoreError: FILE_DAMAGED, DOCUMENT_DAMAGED, one differs from the stored one.
     """
     path = database.home.new_temporary(".zip")
     with database.in_use(case_id), translate_errors(database.home.folder):
@@ -99,6 +100,9 @@ def _write_all(
     with database.read_session() as session:
         case = case_of(case_row(session, case_id))
         files = all_files(database, session, case_id)
+        for heading in lineage_of(session, case_id).headings.values():
+            if heading.is_damaged:
+                raise document_damaged(case_id, heading.id)
         database.home.reject_without_space(sum(file.size_bytes for file in files))
         writer.write(CASE, iter([_case_text(case, files, with_identity=with_identity)]))
         lines = (

@@ -18,6 +18,7 @@ from server.store.archive.schema import (
 from server.store.case_database import CaseDatabase
 from server.store.cases import add_case, case_of
 from server.store.cleanup import remove_case
+from server.store.documents import insert_document
 from server.store.errors import translate_errors
 from server.store.files import READ_ONLY, UNFINISHED, make_folder
 from server.store.home import sync_file, sync_folder
@@ -26,9 +27,7 @@ from server.store.tables import (
     COMPLETE,
     IMPORTING,
     PRESENT,
-    BasisRow,
     CaseRow,
-    DocumentFileRow,
     DocumentRow,
     FileRow,
 )
@@ -170,13 +169,8 @@ def _insert_case(
         )
     session.flush()
     for document in documents:
-        session.add(_document_row(case_id, document, imported))
-        session.flush()
-        for place, basis in enumerate(document.stands_on):
-            session.add(BasisRow(case_id=case_id, document_id=document.id, place=place, basis_id=basis))
-        for place, used in enumerate(document.files):
-            session.add(DocumentFileRow(case_id=case_id, document_id=document.id, place=place, file_id=used))
-    session.flush()
+        row_of_document = _document_row(case_id, document, imported)
+        insert_document(session, row_of_document, document.stands_on, document.files)
     return case_of(row)
 
 

@@ -162,6 +162,18 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "de": "ein Objektiv mit {coefficients} Koeffizienten, erlaubt {allowed}",
         },
     ),
+    "IMAGE_FORMAT_INVALID": (
+        {
+            "en": "an image of {source} is {given}, needed is uint8 (height, width, 3)",
+            "de": "ein Bild von {source} ist {given}, nötig ist uint8 (Höhe, Breite, 3)",
+        },
+    ),
+    "IMAGE_NOT_DECODED": (
+        {
+            "en": "an image of {source} could not be decoded: {library_error}",
+            "de": "ein Bild von {source} ließ sich nicht decodieren: {library_error}",
+        },
+    ),
     "IMAGE_TOO_LARGE": (
         {
             "en": "an image has {size} px and {bytes} bytes, the maximum is {limit_bytes} bytes",

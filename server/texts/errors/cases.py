@@ -11,6 +11,12 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "de": "das Archiv hat die Formatversion {found}, dieses Coaxial liest Version {known}",
         },
     ),
+    "CASE_DAMAGED": (
+        {
+            "en": "the name or the times of the case {case_id} are damaged on the disk",
+            "de": "Name oder Zeiten des Falls {case_id} sind auf der Platte beschädigt",
+        },
+    ),
     "CASE_IN_USE": (
         {
             "en": "the case {case_id} is in use by {in_use} write or export operations",
@@ -448,6 +454,12 @@ CASES: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the file {file_id} of the case {case_id} is damaged: {damage}",
             "de": "die Datei {file_id} des Falls {case_id} ist beschädigt: {damage}",
+        },
+    ),
+    "NOT_RESTORABLE": (
+        {
+            "en": "{title} is not the last intact version before a damaged one",
+            "de": "{title} ist nicht die letzte unbeschädigte Version vor einer beschädigten",
         },
     ),
     "HOME_NOT_LOCKABLE": (

@@ -213,7 +213,9 @@ class People:
             self.doing = "releasing the hold"
             self._server.ask("POST", "/api/alarms/release", 200, json={"by": name})
             promised.holding = ""
-        promised.names.add(name)
+        # After a kill in the middle of a request there may have been nothing to release, and nothing to log.
+        if requested_by is not None:
+            promised.names.add(name)
 
     def _choose(self, side: str) -> None:
         name = self._name()

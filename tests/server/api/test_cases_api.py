@@ -1,7 +1,9 @@
 """Cases over HTTP."""
 
+import sqlite3
 import zipfile
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from io import BytesIO
 from pathlib import Path
 
@@ -138,6 +140,32 @@ def test_documents_tell_what_they_stand_on_and_whether_they_hold(door: TestClien
         == "it depends on ct 'main' version 1, which was withdrawn by ito: another patient"
     )
     assert door.get(f"{path}/{UNKNOWN}").json()["code"] == "DOCUMENT_UNKNOWN"
+
+
+def test_a_damaged_document_is_listed_and_the_version_before_it_used_on_request(
+    door: TestClient, store: CaseStore
+) -> None:
+    case_id = made(door)
+    old, lost = (store.put(case_id, DocumentKind.PLAN, "main", {"n": n}, made_by="ito") for n in (1, 2))
+    with closing(sqlite3.connect(store.home.database)) as raw:
+        raw.execute("DROP TRIGGER documents_never_change")
+        raw.execute("UPDATE documents SET content = '{\"n\":3}' WHERE id = ?", (lost.id,))
+        raw.commit()
+    path = f"/api/cases/{case_id}/documents"
+    headings = door.get(path).json()["documents"]
+    assert [(one["version"], one["is_damaged"], one["current"]) for one in headings] == [
+        (1, False, False),
+        (2, True, False),
+    ]
+    assert headings[1]["out_of_date"] == "plan 'main' version 2 is damaged on the disk"
+    answer = door.get(f"{path}/{lost.id}")
+    assert (answer.status_code, answer.json()["code"]) == (503, "DOCUMENT_DAMAGED")
+    restored = door.post(f"{path}/{old.id}/restoration", json={"by": "abe"}).json()
+    assert (restored["heading"]["version"], restored["heading"]["made_by"]) == (3, "abe")
+    assert restored["heading"]["current"]
+    assert restored["content"] == {"n": 1}
+    again = door.post(f"{path}/{old.id}/restoration", json={"by": "abe"})
+    assert (again.status_code, again.json()["code"]) == (409, "NOT_RESTORABLE")
 
 
 def test_a_case_goes_out_and_comes_in(door: TestClient, store: CaseStore) -> None:

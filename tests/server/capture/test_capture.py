@@ -4,8 +4,11 @@ import queue
 import threading
 import time
 from collections.abc import Callable
+from typing import Any
 
+import cv2
 import numpy as np
+import numpy.typing as npt
 import pytest
 from structlog.testing import capture_logs
 
@@ -117,6 +120,52 @@ def test_a_fault_is_reported_once_however_often_it_is_tried_and_it_comes_back() 
     capture.close()
     assert [line["event"] for line in logs][:2] == ["source started", "cable out"]
     assert [line["event"] for line in logs].count("cable out") == 1
+
+
+def undecodable() -> cv2.error:
+    """The error of a decoder that has run out of data."""
+    with pytest.raises(cv2.error) as raised:
+        cv2.cvtColor(np.zeros((2, 2, 1), np.uint8), cv2.COLOR_BGR2GRAY)
+    return raised.value
+
+
+@pytest.mark.parametrize(
+    ("fault", "code"),
+    [
+        pytest.param(np.zeros((4, 6), np.uint8), "IMAGE_FORMAT_INVALID", id="grey"),
+        pytest.param(np.zeros((4, 6, 2), np.uint8), "IMAGE_FORMAT_INVALID", id="yuyv-not-converted"),
+        pytest.param(np.zeros((4, 6, 3), np.uint16), "IMAGE_FORMAT_INVALID", id="16-bit"),
+        pytest.param(np.zeros((0, 0, 3), np.uint8), "IMAGE_FORMAT_INVALID", id="empty"),
+        pytest.param(undecodable(), "IMAGE_NOT_DECODED", id="decoder-fails"),
+    ],
+)
+def test_an_image_of_another_format_is_reported_and_the_next_good_one_is_live(
+    fault: npt.NDArray[Any] | cv2.error, code: str
+) -> None:
+    source, stop = ScriptedSource(stalls=True), threading.Event()
+    capture = Capture(source, stop=stop)
+    capture.start()
+    source.reported.put(shot(0))
+    until(lambda: capture.status().state is SourceState.RUNNING)
+    if isinstance(fault, cv2.error):
+        source.reported.put(fault)
+    else:
+        source.reported.put(Shot.live(fault, number=1, captured_at_s=time.monotonic()))
+    until(lambda: capture.status().state is SourceState.RECONNECTING)
+    problem = capture.status().problem
+    assert problem is not None
+    assert (problem.code, capture.status().rate_hz) == (code, 0.0)
+    assert "scripted" in problem.message
+    # What came before the fault is not live.
+    assert capture.take(0.0) is None
+    source.reported.put(shot(2))
+    until(lambda: capture.status().state is SourceState.RUNNING)
+    found = capture.take(1.0)
+    assert found is not None
+    assert (found.number, source.opened) == (2, 2)
+    stop.set()
+    source.reported.put(None)
+    capture.close()
 
 
 def test_an_image_not_taken_before_the_camera_was_lost_is_not_live() -> None:

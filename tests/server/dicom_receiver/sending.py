@@ -47,6 +47,7 @@ class Door:
     inbox: Inbox
     receiver: Receiver
     now_s: float = 1e9
+    clock_set_by_s: float = 0.0
     remarks: list[Remark] = field(default_factory=list)
 
     @property
@@ -84,6 +85,7 @@ def door(
         Inbox(folder, limits),
         report=remarks.append,
         clock=lambda: opened[0].now_s if opened else 1e9,
+        seconds=lambda: opened[0].now_s - opened[0].clock_set_by_s if opened else 0.0,
     )
     opened.append(Door(port=listener.getsockname()[1], inbox=inbox, receiver=receiver, remarks=remarks))
     opened[0].now_s = time.time()

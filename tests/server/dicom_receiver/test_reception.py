@@ -102,6 +102,14 @@ def test_a_broken_connection_leaves_the_series_incomplete_until_it_is_sent_again
         assert one.files == one.description.images == 5
 
 
+def test_a_series_is_described_and_kept_while_the_clock_is_set(tmp_path: Path) -> None:
+    with door(tmp_path) as opened:
+        complete(opened, made_ct().slices)
+        opened.receiver.describe_quiet_series()
+        opened.now_s, opened.clock_set_by_s = opened.now_s - 3600.0, -3600.0
+        assert opened.described().description is not None
+
+
 def test_one_connection_a_slice_is_one_series(tmp_path: Path) -> None:
     with door(tmp_path) as opened:
         for one in made_ct().slices:

@@ -1,6 +1,8 @@
 """The tracking process gets what is valid in the open case, once for each change."""
 
+import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import cast
 
@@ -154,6 +156,24 @@ def test_a_registration_is_published_without_numbers_until_it_is_checked(publish
     published.store.withdraw(document, by="ito", reason="slipped")
     after = published.newest
     assert (after.registration, after.withheld) == (None, None)
+
+
+def test_with_a_damaged_calibration_no_registration_is_published(published: Published) -> None:
+    camera = published.put_camera()
+    published.put_plan()
+    record = RegistrationRecord.of(
+        REGISTRATION, RegistrationEvidence(from_s=12.5), vertebra="L3", reference="", run=RUN
+    )
+    published.put(DocumentKind.REGISTRATION, "L3", record.model_dump(mode="json"))
+    assert published.newest.registration is not None
+    # It does not depend on this camera, so that the settings' one would replace it.
+    with closing(sqlite3.connect(published.store.home.database)) as raw:
+        raw.execute("UPDATE documents SET checksum = 'damaged' WHERE id = ?", (camera.id,))
+        raw.commit()
+    published.store.close()
+    published.store.open(published.store.create("other").id)
+    published.store.open(published.case_id)
+    assert (published.newest.camera, published.newest.registration) == (None, None)
 
 
 def test_nothing_of_a_closed_case_stays_published(published: Published) -> None:

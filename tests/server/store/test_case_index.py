@@ -136,7 +136,7 @@ def test_an_error_is_not_stored(store: CaseStore, monkeypatch: pytest.MonkeyPatc
     def fail(*_: object) -> None:
         raise OSError("the disk is gone")
 
-    monkeypatch.setattr("server.store.case_index.read_lineage", fail)
+    monkeypatch.setattr("server.store.case_index.new_documents", fail)
     with pytest.raises(StoreError, match="the disk is gone"):
         store.latest(case_id, KIND, "main")
     monkeypatch.undo()

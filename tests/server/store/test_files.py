@@ -187,3 +187,16 @@ def test_power_lost_between_any_two_steps_costs_nothing_that_was_confirmed(
             on_disk = {path.name for path in home.cases.rglob("*") if path.is_file()}
             assert on_disk == {file.id for case in again.list() for file in again.files(case.id)}, number
     assert first
+
+
+def test_a_file_that_the_disk_changed_is_not_given_to_anybody(store: CaseStore, case_id: str) -> None:
+    with store.new_file(case_id, ".npy") as new:
+        new.path.write_bytes(bytes(100_000))
+    path = store.file(case_id, new.stored.id).path
+    content = bytearray(path.read_bytes())
+    content[70_001] ^= 4
+    path.chmod(0o600)
+    path.write_bytes(content)
+    with CaseStore(store.home) as again, pytest.raises(StoreError, match="its SHA-256 differs") as damaged:
+        again.file(case_id, new.stored.id)
+    assert damaged.value.code == "FILE_DAMAGED"

@@ -117,11 +117,11 @@ def test_what_is_committed_is_on_the_disk_and_documents_do_not_change(store: Cas
             raw.execute(f"UPDATE documents SET {column} = '{{}}'")  # noqa: S608  our own words
 
 
-def with_a_third_form(folder: Path, upgrade: str) -> Path:
+def with_a_fourth_form(folder: Path, upgrade: str) -> Path:
     """The migrations with an additional one."""
     shutil.copytree(MIGRATIONS, folder)
-    (folder / "versions" / "form_3.py").write_text(
-        f"from alembic import op\nrevision = '3'\ndown_revision = '2'\ndef upgrade():\n    {upgrade}\n"
+    (folder / "versions" / "form_4.py").write_text(
+        f"from alembic import op\nrevision = '4'\ndown_revision = '3'\ndef upgrade():\n    {upgrade}\n"
     )
     return folder
 
@@ -132,23 +132,23 @@ def revision_of(database: Path) -> str:
 
 
 def test_an_older_database_is_kept_before_it_is_changed_and_a_newer_one_rejected(tmp_path: Path) -> None:
-    migrations = with_a_third_form(tmp_path / "m", "op.execute('ALTER TABLE cases ADD COLUMN more TEXT')")
+    migrations = with_a_fourth_form(tmp_path / "m", "op.execute('ALTER TABLE cases ADD COLUMN more TEXT')")
     with Home(tmp_path / "h") as home:
         with CaseStore(home) as store:
             store.create("one")
         open_database(home, now=utc_now, migrations=migrations).dispose()
-        assert revision_of(home.database) == "3"
+        assert revision_of(home.database) == "4"
         (backup,) = home.backups.iterdir()
-        assert revision_of(backup) == "2"
+        assert revision_of(backup) == "3"
         with closing(sqlite3.connect(backup)) as raw:
             assert raw.execute("SELECT name FROM cases").fetchall() == [("one",)]
-        with pytest.raises(StoreError, match="has schema 3, this program supports schemas 2 to 2") as newer:
+        with pytest.raises(StoreError, match="has schema 4, this program supports schemas 3 to 3") as newer:
             CaseStore(home)
         assert newer.value.code == "STORE_SCHEMA_UNKNOWN"
 
 
 def test_a_migration_that_fails_changes_nothing(tmp_path: Path) -> None:
-    migrations = with_a_third_form(
+    migrations = with_a_fourth_form(
         tmp_path / "m",
         "op.execute('ALTER TABLE cases ADD COLUMN more TEXT'); op.execute('DROP TABLE no_such')",
     )
@@ -157,7 +157,7 @@ def test_a_migration_that_fails_changes_nothing(tmp_path: Path) -> None:
             case = store.create("one")
         with pytest.raises(StoreError, match="no such table"):
             open_database(home, now=utc_now, migrations=migrations)
-        assert revision_of(home.database) == "2"
+        assert revision_of(home.database) == "3"
         with CaseStore(home) as store:
             assert store.list() == (case,)
 
@@ -167,12 +167,12 @@ def test_a_database_older_than_the_first_migration_is_rejected_and_not_changed(t
         with CaseStore(home):
             pass
         with closing(sqlite3.connect(home.database)) as raw:
-            raw.execute("UPDATE alembic_version SET version_num = '1'")
+            raw.execute("UPDATE alembic_version SET version_num = '2'")
             raw.commit()
-        with pytest.raises(StoreError, match="has schema 1, this program supports schemas 2 to 2") as older:
+        with pytest.raises(StoreError, match="has schema 2, this program supports schemas 3 to 3") as older:
             CaseStore(home)
         assert older.value.code == "STORE_SCHEMA_UNKNOWN"
-        assert revision_of(home.database) == "1"
+        assert revision_of(home.database) == "2"
         assert list(home.backups.iterdir()) == []
 
 

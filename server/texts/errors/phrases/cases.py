@@ -101,6 +101,10 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "de": "sie fehlt",
         },
         {
+            "en": "its entry in the database was changed",
+            "de": "ihr Eintrag in der Datenbank wurde verändert",
+        },
+        {
             "en": "its SHA-256 differs",
             "de": "ihr SHA-256 stimmt nicht",
         },

@@ -31,6 +31,11 @@ CAMERA: tuple[Text, ...] = (
         "„video“); es wird automatisch neu versucht.",
     },
     {
+        "en": "Check the cable, and set the camera to MJPEG or YUYV; it is retried automatically.",
+        "de": "Das Kabel prüfen und die Kamera auf MJPEG oder YUYV stellen; es wird automatisch erneut "
+        "versucht.",
+    },
+    {
         "en": "Check its cable and power; it is retried automatically.",
         "de": "Kabel und Strom prüfen; es wird automatisch neu versucht.",
     },

@@ -172,9 +172,18 @@ CASES: tuple[Text, ...] = (
         "de": "Eine von {units} angeben.",
     },
     {
-        "en": "Check the disk, and restore the server's folder from a copy; other cases can be used.",
-        "de": "Die Platte prüfen und den Ordner des Servers aus einer Kopie wiederherstellen; andere Fälle "
-        "sind verwendbar.",
+        "en": "Do its step again, or open the list of documents and go on with the version before it. Then "
+        "check the disk.",
+        "de": "Seinen Schritt wiederholen oder in der Liste der Dokumente mit der Version davor "
+        "weiterarbeiten. Dann die Platte prüfen.",
+    },
+    {
+        "en": "Check which case it is, and give it its name again. Then check the disk.",
+        "de": "Prüfen, welcher Fall es ist, und ihm seinen Namen noch einmal geben. Dann die Platte prüfen.",
+    },
+    {
+        "en": "Load the list of documents again.",
+        "de": "Die Liste der Dokumente neu laden.",
     },
     {
         "en": "Restore the file from a copy; steps that need it are not possible until then.",

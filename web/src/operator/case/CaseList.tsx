@@ -7,6 +7,7 @@ import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { formatTime } from "../parts/format";
 import { DeleteCase } from "./DeleteCase";
+import { Rename } from "./Rename";
 import type { Case } from "./OpenedCase";
 
 interface CaseListProps {
@@ -35,13 +36,23 @@ export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNod
         {others.map((one) => (
           <li key={one.id} className="row">
             <div className="grow">
-              <p className="case-name">{one.name}</p>
-              <p className="soft">
-                {texts.case.changedAt} {formatTime(one.changed_at, texts.language)}
-              </p>
+              {one.is_damaged ? (
+                <>
+                  <Rename case_={one} onRenamed={onChange} />
+                  <p className="bad">▲ {texts.case.damagedCase}</p>
+                </>
+              ) : (
+                <>
+                  <p className="case-name">{one.name}</p>
+                  <p className="soft">
+                    {texts.case.changedAt} {formatTime(one.changed_at, texts.language)}
+                  </p>
+                </>
+              )}
             </div>
             <Button
               size="lg"
+              disabled={one.is_damaged}
               loading={opening.busy}
               onClick={() => {
                 open(one.id);

@@ -1,15 +1,22 @@
-import { Badge, Switch, Table } from "@mantine/core";
+import { Badge, Button, Switch, Table } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { EmptyState } from "../../panes/EmptyState";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
-import { getCasesByCaseIdDocuments, type HeadingMessage } from "../../api";
+import {
+  getCasesByCaseIdDocuments,
+  postCasesByCaseIdDocumentsByDocumentIdRestoration,
+  type HeadingMessage,
+} from "../../api";
+import { RejectionNote } from "../../rest/RejectionNote";
+import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { sentence, formatTime } from "../parts/format";
+import { useMadeBy } from "../registration/useMadeBy";
 import { documentTitle } from "./documentTitle";
-import { newestOf } from "./newest";
+import { lastIntact, newestOf } from "./newest";
 
 type Heading = HeadingMessage;
 
@@ -54,7 +61,15 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
             </Table.Thead>
             <Table.Tbody>
               {shown.map((one) => (
-                <DocumentRow key={one.id} heading={one} />
+                <DocumentRow key={one.id} heading={one}>
+                  {data !== null && (
+                    <GoOn
+                      caseId={caseId}
+                      intact={lastIntact(data.documents, one)}
+                      onRestored={query.refetch}
+                    />
+                  )}
+                </DocumentRow>
               ))}
             </Table.Tbody>
           </Table>
@@ -64,10 +79,50 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
   );
 }
 
-function DocumentRow({ heading }: { heading: Heading }): ReactNode {
+interface GoOnProps {
+  caseId: string;
+  intact: Heading | null;
+  onRestored: () => void;
+}
+
+/** Makes the last intact version the newest one, where the newest one is damaged. */
+function GoOn({ caseId, intact, onRestored }: GoOnProps): ReactNode {
+  const texts = useTexts().case;
+  const by = useMadeBy();
+  const restoring = useAction();
+  if (intact === null) return null;
+  return (
+    <>
+      <Button
+        size="lg"
+        variant="default"
+        loading={restoring.busy}
+        onClick={() => {
+          void restoring
+            .run(async () => {
+              const path = { case_id: caseId, document_id: intact.id };
+              await postCasesByCaseIdDocumentsByDocumentIdRestoration({ path, body: { by } });
+            })
+            .then(onRestored);
+        }}
+      >
+        {texts.goOnWith.replace("{version}", String(intact.version))}
+      </Button>
+      <RejectionNote rejection={restoring.rejection} />
+    </>
+  );
+}
+
+function DocumentRow({ heading, children }: { heading: Heading; children: ReactNode }): ReactNode {
   const texts = useTexts();
   const { current, withdrawn, out_of_date: why } = heading;
-  const state = withdrawn !== null ? "withdrawn" : current ? "current" : "outOfDate";
+  const state = heading.is_damaged
+    ? "damaged"
+    : withdrawn !== null
+      ? "withdrawn"
+      : current
+        ? "current"
+        : "outOfDate";
   return (
     <Table.Tr data-validity={state}>
       <Table.Th scope="row">
@@ -77,7 +132,7 @@ function DocumentRow({ heading }: { heading: Heading }): ReactNode {
         </span>
       </Table.Th>
       <Table.Td>
-        <Badge size="lg" variant="light" color={current ? "teal" : "yellow"}>
+        <Badge size="lg" variant="light" color={current ? "teal" : heading.is_damaged ? "red" : "yellow"}>
           {current ? "✓" : "!"} {texts.case.validities[state]}
         </Badge>
         {why !== null && <p className="soft">{sentence(why)}</p>}
@@ -86,12 +141,17 @@ function DocumentRow({ heading }: { heading: Heading }): ReactNode {
             {sentence(withdrawn.reason)} ({withdrawn.by})
           </p>
         )}
+        {children}
       </Table.Td>
       <Table.Td>
-        {formatTime(heading.made_at, texts.language)}{" "}
-        <span className="soft">
-          · <Maker of={heading} />
-        </span>
+        {!heading.is_damaged && (
+          <>
+            {formatTime(heading.made_at, texts.language)}{" "}
+            <span className="soft">
+              · <Maker of={heading} />
+            </span>
+          </>
+        )}
       </Table.Td>
     </Table.Tr>
   );

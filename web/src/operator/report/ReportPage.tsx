@@ -52,7 +52,7 @@ function Report({ caseId }: { caseId: string }): ReactNode {
         getProcedure({ signal }),
       ]);
       const entries = recordOf(documents);
-      const telling = entries.map((one) => one.last).filter(isTelling);
+      const telling = entries.map((one) => one.last).filter((one) => isTelling(one) && !one.is_damaged);
       const contents = await contentsOf(caseId, telling, signal);
       return { storedCase, documents, entries, contents, procedure, readAt: new Date().toISOString() };
     },

@@ -15,6 +15,7 @@ function made(kind: Heading["kind"], name: string, version: number, by = "Ito"):
     imported: null,
     current: true,
     out_of_date: null,
+    is_damaged: false,
   };
 }
 

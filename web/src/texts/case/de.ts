@@ -53,7 +53,10 @@ export const caseDe: CaseTexts = {
   version: "Version",
   another: "ein anderes Dokument",
   dependsOn: "beruht auf",
-  validities: { current: "gültig", outOfDate: "veraltet", withdrawn: "zurückgezogen" },
+  validities: { current: "gültig", outOfDate: "veraltet", withdrawn: "zurückgezogen", damaged: "beschädigt" },
+  goOnWith: "Mit Version {version} weiterarbeiten",
+  damagedCase:
+    "Die Platte hat den Namen oder die Zeiten dieses Falls verändert. Prüfen Sie, welcher Fall es ist, und geben Sie ihm seinen Namen noch einmal.",
   kinds: {
     patient: "Patient",
     camera: "Kamera",

@@ -49,7 +49,10 @@ export const caseEn = {
   version: "version",
   another: "another document",
   dependsOn: "depends on",
-  validities: { current: "current", outOfDate: "out of date", withdrawn: "withdrawn" },
+  validities: { current: "current", outOfDate: "out of date", withdrawn: "withdrawn", damaged: "damaged" },
+  goOnWith: "Go on with version {version}",
+  damagedCase:
+    "The disk has changed the name or the times of this case. Check which case it is, and give it its name again.",
   kinds: {
     patient: "Patient",
     camera: "Camera",

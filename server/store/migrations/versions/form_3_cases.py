@@ -1,12 +1,12 @@
 """The first schema that is migrated: cases, documents with their dependencies, and files.
 
-Schema 1 existed only during development; its databases are rejected.
+Schemas 1 and 2 existed only during development; their databases are rejected.
 """
 
 import sqlalchemy as sa
 from alembic import op
 
-revision = "2"
+revision = "3"
 down_revision = None
 branch_labels = None
 depends_on = None
@@ -35,6 +35,7 @@ def upgrade() -> None:
         sa.Column("created_at", sa.String, nullable=False),
         sa.Column("changed_at", sa.String, nullable=False),
         sa.Column("copied_from", sa.String),
+        _checksum(),
         sa.CheckConstraint("state IN ('arriving', 'here', 'leaving')", name="case_state"),
     )
     op.create_table(
@@ -58,8 +59,16 @@ def upgrade() -> None:
         sa.Column("withdrawn_reason", sa.String),
         sa.Column("imported_by", sa.String),
         sa.Column("imported_at", sa.String),
+        _checksum(),
         sa.UniqueConstraint("case_id", "kind", "name", "version", name="one_document_a_version"),
         sa.CheckConstraint("version >= 1", name="versions_count_from_one"),
+    )
+    op.create_table(
+        "newest_versions",
+        _case(),
+        sa.Column("kind", sa.String, primary_key=True),
+        sa.Column("name", sa.String, primary_key=True),
+        sa.Column("version", sa.Integer, nullable=False),
     )
     op.create_table(
         "files",
@@ -69,6 +78,7 @@ def upgrade() -> None:
         sa.Column("size_bytes", sa.Integer, nullable=False),
         sa.Column("sha256", sa.String, nullable=False),
         sa.Column("made_at", sa.String, nullable=False),
+        _checksum(),
         sa.CheckConstraint("state IN ('coming', 'whole')", name="file_state"),
     )
     _link("bases", to="documents", column="basis_id", index="bases_by_basis")
@@ -81,6 +91,10 @@ def upgrade() -> None:
 
 def _case() -> sa.Column[str]:
     return sa.Column("case_id", sa.String, sa.ForeignKey("cases.id", ondelete="CASCADE"), primary_key=True)
+
+
+def _checksum() -> sa.Column[str]:
+    return sa.Column("checksum", sa.String, nullable=False)
 
 
 def _link(name: str, *, to: str, column: str, index: str) -> None:
