@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 from tests.benchmarks.scenes.area import coverage_image
 from tests.benchmarks.scenes.clutter import Floats
@@ -72,4 +72,4 @@ def finger_over(square_px: Array, occlusion_ratio: float, random: np.random.Gene
         share = at(far).share(left, top, (columns, rows), FINE)
         return float(np.sum(share * inside)) / float(inside.sum()) - occlusion_ratio
 
-    return at(brentq(excess, *REACH_SIDES, xtol=TOLERANCE_SIDES))
+    return at(root_scalar(excess, bracket=REACH_SIDES, method="brentq", xtol=TOLERANCE_SIDES).root)
