@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
-from tracker.geometry.geometry_kernels import add_products, products_of_four
+from tracker.geometry.geometry_kernels import add_products, median, products_of_four
 from tracker.photometric.illumination_kernels import (
     MAX_SPLINE_PARAMETERS,
     PLANAR,
@@ -184,7 +184,8 @@ def _spline_equations(rows, at, values, dark_contrast, parameters, illumination,
                 _add_outer_products(four, weights, count, products)
                 many = 0
         if many > 0:
-            weights[many:] = 0.0
+            for k in range(many, 4):
+                weights[k] = 0.0
             _add_outer_products(four, weights, count, products)
         _scatter(products, sides, there[:count], a, g)
     return cost / unit, total
@@ -260,4 +261,4 @@ def robust_sd(rows, values, dark_contrast, response, reliability):
         i = k * every
         r = values[i] - dark_contrast[i, 0] - dark_contrast[i, 1] * apply_response(rows[0, i], response)
         sizes[k] = abs(r) * np.sqrt(reliability[i])
-    return max(1.4826 * np.median(sizes), MIN_SCALE_GREY)
+    return max(1.4826 * median(sizes, len(sizes)), MIN_SCALE_GREY)

@@ -15,8 +15,11 @@ MAX_TEST_PIXELS = 800
 @compiled
 def _chi2_decrease(a, g, count):
     """Return the decrease of chi-square by fitting the first `count` parameters; 0 for a singular system."""
-    some, out = np.ascontiguousarray(a[:count, :count]), np.zeros(count)
-    sides = g[:count].copy()
+    some, sides, out = np.empty((count, count)), np.empty(count), np.zeros(count)
+    for j in range(count):
+        sides[j] = g[j]
+        for k in range(count):
+            some[j, k] = a[j, k]
     if not solve_positive(some, sides, out):
         return 0.0
     total = 0.0

@@ -157,7 +157,10 @@ def _convolve(
         right, up, weight = kernel_samples[0, k], kernel_samples[1, k], kernel_samples[2, k]
         one[:, :] = 0.0
         add_texture_samples(texels, start, size, texel, at, begin, count, right, up, weight, workspace, one)
-        seen += one
+        for m in range(6):
+            total, part = seen[m], one[m]
+            for i in range(count):
+                total[i] += part[i]
         for m in range(2):
             out, slope, moved = motion_slopes[m], one[1 + m], kernel_samples[3, k]
             for i in range(count):
@@ -165,11 +168,11 @@ def _convolve(
 
 
 @compiled
-def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, free):
+def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, by_blur):
     """Predict pixel values and derivatives: `rows` (10, n), and plane coordinates `at` (n, 2) in half sides.
 
-    Rows: value 0..1, derivatives by translation (3), rotation (3) and blur (3). Returns False where the
-    marker cannot be visible at this pose.
+    Rows: value 0..1, derivatives by translation (3), rotation (3) and, with `by_blur`, blur (3). Returns
+    False where the marker cannot be visible at this pose.
     """
     plane_per_px, kernel_samples = np.empty((2, 2)), np.empty((4, MAX_KERNEL_SAMPLES))
     if translation[2] < 1.0 or not footprint(rotation, translation, lens, side_mm, plane_per_px):
@@ -195,6 +198,6 @@ def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, fre
             motion_slopes,
         )
         _pose_derivatives(rays, begin, count, rotation, translation, side_mm, seen, spread, rows)
-        if free:
+        if by_blur:
             _blur_derivatives(begin, count, seen, motion_slopes, plane_per_px, motion, rows)
     return True

@@ -33,7 +33,7 @@ def pose_from_foreshortening(homography, rotation, translation):
         q = unit * (homography[1, k] - y * homography[2, k])
         seen[0, k], seen[1, k] = (d * p - b * q) / det, (a * q - c * p) / det
     # The tilt shortens one singular value; the larger one is the scale.
-    squares = (seen * seen).sum()
+    squares = seen[0, 0] ** 2 + seen[0, 1] ** 2 + seen[1, 0] ** 2 + seen[1, 1] ** 2
     area = seen[0, 0] * seen[1, 1] - seen[0, 1] * seen[1, 0]
     scale = np.sqrt(0.5 * (squares + np.sqrt(max(squares * squares - 4.0 * area * area, 0.0))))
     if not scale > 1e-12:

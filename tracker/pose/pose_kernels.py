@@ -5,7 +5,14 @@ import numpy as np
 from tracker.camera.projection_kernels import project_with_derivative
 from tracker.compiled import compiled
 from tracker.edges.edge_kernels import crossing
-from tracker.geometry.geometry_kernels import copy_pose, copy_vector, mirror, rotate_by, solve_positive
+from tracker.geometry.geometry_kernels import (
+    copy_pose,
+    copy_vector,
+    median,
+    mirror,
+    rotate_by,
+    solve_positive,
+)
 
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
 MIN_EDGES = 12
@@ -130,7 +137,7 @@ def _normalised_mad(values, shift, found, sizes):
         if found[i]:
             sizes[n] = abs(values[i] - shift)
             n += 1
-    return 1.4826 * np.median(sizes[:n])
+    return 1.4826 * median(sizes, n)
 
 
 @compiled
@@ -143,7 +150,7 @@ def _apply_step(rotation, translation, step):
     short = 0.5 / angle if angle > 0.5 else 1.0
     for k in range(3):
         translation[k] += short * step[k]
-    rotate_by(rotation, short * step[3:6])
+    rotate_by(rotation, step[3:6], short)
     facing = (
         rotation[0, 2] * translation[0] + rotation[1, 2] * translation[1] + rotation[2, 2] * translation[2]
     )
@@ -228,7 +235,8 @@ def _refine(
         if not solve_positive(a, g, step):
             return False
         if iteration > 0 and moved < NEAR_MOVE_PX:
-            step *= OVER_RELAXATION
+            for k in range(PARAMETERS):
+                step[k] *= OVER_RELAXATION
         if not _apply_step(rotation, translation, step):
             return False
         shift += step[6]
@@ -282,7 +290,7 @@ def fit_square(corners, half, rotation, translation, rounds):
             return left
         for m in range(3):
             translation[m] += step[m]
-        rotate_by(rotation, step[3:6])
+        rotate_by(rotation, step[3:6], 1.0)
     return before
 
 
@@ -303,6 +311,9 @@ def fit_both_solutions(
         robust cost in px^2, shift common to all edges in px, weighted sum of squared residuals in px^2, sum
         of weights, number of edges; then the index of the better and of the other, -1 where there is none.
     """
+    total_strength = 0.0
+    for one in strength:
+        total_strength += one
     rotations, translations = np.empty((3, 3, 3)), np.empty((3, 3))
     matrices, statistics = np.zeros((3, PARAMETERS, PARAMETERS)), np.zeros((3, 5))
     seed_rotation, seed_translation = rotation.copy(), translation.copy()
@@ -339,7 +350,7 @@ def fit_both_solutions(
             copy_pose(rotations[free], translations[free], seed_rotation, seed_translation)
             cost, squares, weights = statistics[free, 0], statistics[free, 2], statistics[free, 3]
             abandon_above_px2 = cost + decided * max(
-                squares / weights, cost / max(strength.sum(), 1.0), min_px2
+                squares / weights, cost / max(total_strength, 1.0), min_px2
             )
         for slot in range(3):
             if slot not in (better, other):

@@ -24,7 +24,9 @@ def median_difference(image, rows_apart, columns_apart):
         line = image[v]
         for u in range(0, width - 1, columns_apart):
             counts[abs(np.int64(line[u]) - np.int64(line[u + 1]))] += 1
-    half = 0.5 * counts.sum()
+    half = 0.0
+    for count in counts:
+        half += 0.5 * count
     if half == 0.0:
         return 0.0
     # The median of integers, interpolated within its level.
@@ -190,7 +192,10 @@ def _farthest(hull, n, nx, ny):
 @compiled
 def _largest_quad(hull, n, quad):
     """Approximate the largest quad of hull corners: for each diagonal the farthest corners."""
-    cx, cy = hull[:n, 0].mean(), hull[:n, 1].mean()
+    cx, cy = 0.0, 0.0
+    for i in range(n):
+        cx += hull[i, 0] / n
+        cy += hull[i, 1] / n
     a, far = 0, -1.0
     for i in range(n):
         d = (hull[i, 0] - cx) ** 2 + (hull[i, 1] - cy) ** 2

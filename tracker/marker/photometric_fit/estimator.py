@@ -60,7 +60,7 @@ class Estimator:
     def __init__(self, image: GreyImage, pictures: ScaleSpace, corners_px: Array, side_px: float) -> None:
         self.image, self.pictures = image, pictures
         self.side_px = side_px
-        self.cell_px = cell_px_of(side_px)
+        self.cell_px = max(side_px, MIN_SIDE_PX) / SQUARE_CELLS
         self.to_px = np.empty(8)
         square_to_quad(np.ascontiguousarray(corners_px, dtype=np.float64), self.to_px)
         self.corners: Array = UNIT.copy()
@@ -188,11 +188,6 @@ def local_ncc_at(image: GreyImage, pictures: ScaleSpace, corners_px: Array, *, s
     a template match, under motion blur worse.
     """
     return Estimator(image, pictures, corners_px, side_px).local_ncc()
-
-
-def cell_px_of(side_px: float) -> float:
-    """Return the width of a grid cell in px."""
-    return max(side_px, MIN_SIDE_PX) / SQUARE_CELLS
 
 
 @cache

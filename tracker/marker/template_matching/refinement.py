@@ -12,6 +12,8 @@ from tracker.marker.template_matching.templates import (
     OCCLUSION_MASKS,
     RING,
     STIFFNESS,
+    VISIBLE_CELLS,
+    VISIBLE_COUNT,
     Float32,
     Template,
 )
@@ -44,6 +46,8 @@ def refine_quads(
         masked.mean,
         masked.spread,
         OCCLUSION_MASKS,
+        VISIBLE_CELLS,
+        VISIBLE_COUNT,
         steps,
         STIFFNESS,
         CELLS,

@@ -204,3 +204,6 @@ def _occlusion_masks() -> Float32:
 
 
 OCCLUSION_MASKS = _occlusion_masks()
+# The same by cell (n, c), and the number of visible cells under each mask (c,).
+VISIBLE_CELLS = np.ascontiguousarray(OCCLUSION_MASKS.T)
+VISIBLE_COUNT = OCCLUSION_MASKS.sum(axis=1)
