@@ -33,6 +33,8 @@ NEIGHBOURHOOD_CELLS, PICTURE_GREY = 4, 100.0
 SQUARE = np.s_[RING:-RING, RING:-RING]
 MIN_SD_GREY, MIN_SD_RATIO = 6.0, 0.1
 UNIT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+# Half width, in half sides, of the area inside the border where another marker may have its shape.
+OTHERS_HALF = 0.8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -195,3 +197,21 @@ def inside_square() -> Mask:
     """Return the mask of cells inside the outline."""
     u, v = grid()
     return np.asarray(np.maximum(np.abs(u), np.abs(v)) < 1.0)
+
+
+def shape_mask(picture: npt.NDArray[np.float32]) -> Mask:
+    """Return the bounding mask of the bright shape within the outline."""
+    u, v = grid()
+    bright = (picture > 0.5) & (np.maximum(np.abs(u), np.abs(v)) < 0.85)
+    rows, columns = np.nonzero(bright)
+    if len(rows) == 0:
+        return inside_square()
+    out = np.zeros_like(bright)
+    out[max(rows.min() - 1, 0) : rows.max() + 2, max(columns.min() - 1, 0) : columns.max() + 2] = True
+    return np.asarray(out & inside_square())
+
+
+def any_shape_mask(picture: npt.NDArray[np.float32]) -> Mask:
+    """Return the mask of this model's shape and of the area where another marker may have its shape."""
+    u, v = grid()
+    return np.asarray(shape_mask(picture) | (np.maximum(np.abs(u), np.abs(v)) < OTHERS_HALF))

@@ -8,13 +8,12 @@ import numpy as np
 
 from tracker.edges import GreyImage
 from tracker.geometry import Array
-from tracker.marker.photometric_fit.estimator import Estimator, inside_square
+from tracker.marker.photometric_fit.estimator import Estimator, inside_square, shape_mask
 from tracker.marker.photometric_fit.fit_kernels import SATURATED_GREY, correlation
 from tracker.marker.photometric_fit.illumination import contrasts, highlights
 from tracker.marker.photometric_fit.inverted_parts import MAX_INVERTED_RATIO, max_inverted_ratio
 from tracker.marker.photometric_fit.occlusion import find_occlusion
 from tracker.marker.photometric_fit.scale_space import scale_space_of
-from tracker.marker.photometric_fit.shape_masks import shape_mask
 
 # A larger saturated part of the square is a highlight.
 MIN_SATURATED_RATIO = 0.02

@@ -20,7 +20,13 @@ from tracker.marker.photometric_fit.acceptance import (
     NoiseCorrectedFit,
     PhotometricFit,
 )
-from tracker.marker.photometric_fit.estimator import UNIT, Estimator, inside_square
+from tracker.marker.photometric_fit.estimator import (
+    UNIT,
+    Estimator,
+    any_shape_mask,
+    inside_square,
+    shape_mask,
+)
 from tracker.marker.photometric_fit.fit_kernels import SATURATED_GREY, correlation
 from tracker.marker.photometric_fit.grid_kernels import GRID_CELLS, SAMPLING_VARIANCE, SQUARE_CELLS
 from tracker.marker.photometric_fit.illumination import contrasts, highlights, shadow_in, smooth_light
@@ -32,7 +38,6 @@ from tracker.marker.photometric_fit.occlusion import (
 )
 from tracker.marker.photometric_fit.saturation import MIN_SATURATED_RATIO
 from tracker.marker.photometric_fit.scale_space import scale_space_of
-from tracker.marker.photometric_fit.shape_masks import any_shape_mask, shape_mask
 from tracker.marker.photometric_fit.stepwise_illumination import fit_illumination
 from tracker.marker.photometric_fit.symmetry import rotation_is_ambiguous
 from tracker.marker.sampling_kernels import through
