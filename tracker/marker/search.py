@@ -33,7 +33,7 @@ from tracker.marker.template_matching import (
     template_match,
 )
 from tracker.marker.template_matching.template_kernels import distinct
-from tracker.quads import Quads, corner_quads_of
+from tracker.quads import Quads, corner_quads_of, pair_quads_of
 from tracker.regions import (
     Regions,
     border_segments,
@@ -58,6 +58,8 @@ MAX_BEYOND_SIDES = 0.1
 MAX_SHARES = 4
 # Quads from four sides are more accurate than from two, so fewer are refined.
 MAX_REFINED_FOUR_SIDED = 8
+# Number of quads among which the coarse match ranks the true one in nearly all images.
+MAX_PARALLEL = 40
 # A quad whose centre is nearer than this, in sides, to a marker that is seen lies on that marker.
 SAME_PLACE_SIDES = 0.5
 # Before refinement, an unoccluded marker has 0.88 or more at half size, other dark squares up to 0.84.
@@ -275,7 +277,7 @@ _Stage = Iterator[MatchedQuads]
 
 
 class _Features:
-    """Levels of an image's pyramid that are searched, and the dark regions of the first, on demand."""
+    """Regions and edge segments of an image at the levels of its pyramid, computed on demand."""
 
     def __init__(self, image: GreyImage, levels: ImagePyramid) -> None:
         self._image, self._levels = image, levels
@@ -300,6 +302,11 @@ class _Features:
     def regions(self) -> Regions:
         """Dark regions of the first level."""
         return _regions(self.first)
+
+    @cached_property
+    def edges(self) -> npt.NDArray[np.float32]:
+        """Edge segments of the first level."""
+        return _edge_segments(self.first.image, MIN_PIECE_PX)
 
 
 def _match_four_sides(features: _Features, templates: Templates) -> _Stage:
@@ -326,12 +333,15 @@ def _match_half_size(features: _Features, templates: Templates) -> _Stage:
 
 
 def _match_edge_corners(features: _Features, templates: Templates) -> _Stage:
-    segments = _edge_segments(features.first.image, MIN_PIECE_PX)
-    yield _from_corners(features.first, segments, templates, STANDARD.coarse_of(len(templates)))
+    yield _from_corners(features.first, features.edges, templates, STANDARD.coarse_of(len(templates)))
 
 
-# The rounds with hypotheses from one corner; each takes several times as long as four sides.
-_COSTLY_ROUNDS = (_match_border_corners, _match_half_size, _match_edge_corners)
+def _match_parallel_sides(features: _Features, templates: Templates) -> _Stage:
+    yield _between_parallel_sides(features.first, features.edges, templates)
+
+
+# The rounds with hypotheses from one corner or two sides; each takes several times as long as four sides.
+_COSTLY_ROUNDS = (_match_border_corners, _match_half_size, _match_edge_corners, _match_parallel_sides)
 COSTLY_ROUNDS = len(_COSTLY_ROUNDS)
 
 
@@ -342,6 +352,7 @@ def _match_stages(image: GreyImage, levels: ImagePyramid, templates: Templates) 
     yield from _match_border_corners(features, templates)
     yield from _match_half_size(features, templates)
     yield from _match_edge_corners(features, templates)
+    yield from _match_parallel_sides(features, templates)
     yield from _match_full_size(features, templates)
 
 
@@ -401,6 +412,18 @@ def _from_corners(
     corners = corner_quads_of(level.image, segments, min_step_grey=step)
     return MatchedQuads(
         level, *coarse_match(level.soft, corners, templates, maximum=max_count), is_coarse=True
+    )
+
+
+def _between_parallel_sides(
+    level: PyramidLevel, segments: npt.NDArray[np.float32], templates: Templates
+) -> MatchedQuads:
+    """Match quads of which two opposite sides are visible, the others blurred by motion along them."""
+    quads = pair_quads_of(segments)
+    return MatchedQuads(
+        level,
+        *coarse_match(level.soft, quads, templates, maximum=MAX_PARALLEL, motion_blurred=True),
+        is_coarse=True,
     )
 
 

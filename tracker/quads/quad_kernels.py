@@ -10,6 +10,15 @@ MAX_SUCCESSORS = 8
 MAX_CORNER_QUADS = 12000
 CELL_PX = np.float32(16.0)
 MAX_GAP_PX = 30.0
+MAX_PAIR_QUADS = 40000
+# Opposite sides have opposite directions, up to a sixth of a radian by perspective.
+DIRECTIONS, MAX_PAIR_COSINE = 36, 0.985
+MAX_APART_LENGTHS = 3.0
+
+
+@compiled
+def _length(s):
+    return np.sqrt((s[2] - s[0]) ** 2 + (s[3] - s[1]) ** 2)
 
 
 @compiled
@@ -36,9 +45,9 @@ def successors_of(segments):
     corner = np.empty(2)
     length, dx, dy = np.empty(n, np.float32), np.empty(n, np.float32), np.empty(n, np.float32)
     for i in range(n):
-        du, dv = segments[i, 2] - segments[i, 0], segments[i, 3] - segments[i, 1]
-        length[i] = np.sqrt(du * du + dv * dv)
-        dx[i], dy[i] = du / length[i], dv / length[i]
+        length[i] = _length(segments[i])
+        dx[i] = (segments[i, 2] - segments[i, 0]) / length[i]
+        dy[i] = (segments[i, 3] - segments[i, 1]) / length[i]
     for i in range(n):
         a = segments[i]
         la, dax, day, au, av = length[i], dx[i], dy[i], a[2], a[3]
@@ -152,4 +161,92 @@ def corner_quads(image, segments, successors, counts, min_side, min_squash, besi
                         break
                     length *= growth
                     step += 1
+    return quads[:q].copy()
+
+
+@compiled
+def _add_across(quad, p, along, across, length, beyond):
+    """Write a quad: a side of this length about p, and one `across` from it, shifted by `beyond`."""
+    x, y = 0.5 * length * along[0], 0.5 * length * along[1]
+    u, v = p[0] + across[0] + beyond * along[0], p[1] + across[1] + beyond * along[1]
+    quad[0, 0], quad[0, 1], quad[1, 0], quad[1, 1] = p[0] - x, p[1] - y, p[0] + x, p[1] + y
+    quad[2, 0], quad[2, 1], quad[3, 0], quad[3, 1] = u + x, v + y, u - x, v - y
+
+
+@compiled
+def _by_direction(along):
+    """Bin segments by direction (n, 2): own bin, first segment of each bin, next segment of each."""
+    head, after = np.full(DIRECTIONS, -1, np.int32), np.empty(len(along), np.int32)
+    own = np.empty(len(along), np.int32)
+    for i in range(len(along)):
+        turn = np.arctan2(along[i, 1], along[i, 0]) / (2.0 * np.pi)
+        own[i] = int(np.floor(turn * DIRECTIONS)) % DIRECTIONS
+        after[i] = head[own[i]]
+        head[own[i]] = i
+    return own, head, after
+
+
+@compiled
+def _opposite_sides(length, along, middle, i, j, min_side, max_ratio, d):
+    """Return the distance of two opposite sides and the shift of the second along `d`, which is filled.
+
+    They run in opposite directions, dark side inwards; 0 where they are not opposite.
+    """
+    longer, weight = max(length[i], length[j]), length[i] + length[j]
+    if longer < min_side or longer > max_ratio * min(length[i], length[j]):
+        return 0.0, 0.0
+    if along[i, 0] * along[j, 0] + along[i, 1] * along[j, 1] > -MAX_PAIR_COSINE:
+        return 0.0, 0.0
+    for k in range(2):
+        d[k] = (length[i] * along[i, k] - length[j] * along[j, k]) / weight
+    x, y = middle[j, 0] - middle[i, 0], middle[j, 1] - middle[i, 1]
+    separation, beyond = d[0] * y - d[1] * x, d[0] * x + d[1] * y
+    if separation < min_side or abs(beyond) > separation or separation > MAX_APART_LENGTHS * longer:
+        return 0.0, 0.0
+    return separation, beyond
+
+
+@compiled
+def pair_quads(segments, min_side, min_squash, max_ratio, lengths, shifts):
+    """Return quads (q, 4, 2) of pairs of opposite sides whose length ratio is at most `max_ratio`.
+
+    The side length is varied by the factors `lengths` on the longer side, and the position along it by
+    `shifts` as ratios of that length. The first side of a quad lies along the first of the pair.
+    """
+    n, q = len(segments), 0
+    quads = np.empty((MAX_PAIR_QUADS, 4, 2), np.float32)
+    length, along, middle = np.empty(n), np.empty((n, 2)), np.empty((n, 2))
+    for i in range(n):
+        length[i] = _length(segments[i])
+        for k in range(2):
+            along[i, k] = (segments[i, 2 + k] - segments[i, k]) / length[i]
+            middle[i, k] = 0.5 * (segments[i, 2 + k] + segments[i, k])
+    own, head, after = _by_direction(along)
+    d, across, p = np.empty(2), np.empty(2), np.empty(2)
+    for i in range(n):
+        for near in range(-1, 2):
+            j = head[(own[i] + DIRECTIONS // 2 + near) % DIRECTIONS]
+            while j >= 0:
+                other, j = j, after[j]
+                # Visit each pair once.
+                if other < i:
+                    continue
+                separation, beyond = _opposite_sides(length, along, middle, i, other, min_side, max_ratio, d)
+                if separation == 0.0:
+                    continue
+                across[0], across[1] = -d[1] * separation, d[0] * separation
+                for m in range(2 * len(lengths)):
+                    # Hypotheses: a rectangle, or a parallelogram whose sides are offset as the visible parts
+                    # are.
+                    side, slant = lengths[m // 2] * max(length[i], length[other]), (m % 2) * beyond
+                    squares = side * side + separation * separation + slant * slant
+                    if not is_plausible_foreshortening(squares, (side * separation) ** 2, min_squash):
+                        continue
+                    for k in range(len(shifts)):
+                        if q == MAX_PAIR_QUADS:
+                            return quads
+                        off = shifts[k] * side + 0.5 * (beyond - slant)
+                        p[0], p[1] = middle[i, 0] + off * d[0], middle[i, 1] + off * d[1]
+                        _add_across(quads[q], p, d, across, side, slant)
+                        q += 1
     return quads[:q].copy()

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.benchmarks.scenes.conditions import conditions_of
-from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.faces import FACES, Face
 from tests.benchmarks.scenes.placement import random_scene
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.scenes.scene import image_of
@@ -103,6 +103,20 @@ def test_a_marker_out_of_focus_is_found(side_px: float, blur_px: float) -> None:
     for roll_deg in (0, 120):
         image, corners = _scene(side_px, roll_deg=roll_deg, blur_px=blur_px, seed=roll_deg)
         assert _found_in(image, corners, side_px) is not None, roll_deg
+
+
+def test_a_thin_frame_motion_blurred_along_two_sides_is_found() -> None:
+    """The other two sides are blurred away, and with them all four corners."""
+    thin = Face(
+        name="thin",
+        white=(np.array([(0.08, 0.08), (0.92, 0.08), (0.92, 0.92), (0.08, 0.92)]),),
+        black=(np.array([(0.25, 0.2), (0.75, 0.2), (0.75, 0.5), (0.5, 0.8), (0.25, 0.8)]),),
+    )
+    templates = templates_of([thin.model])
+    for seed in range(3):
+        scene = random_scene(RIGS["A"], thin, conditions_of(RIGS["A"])["motion8"], seed=seed)
+        given = [one for each in candidate_rounds(image_of(scene), templates) for one in each[0]]
+        assert any(_off_px(one, scene.corners_px) < 0.15 * 27 for one in given), seed
 
 
 def test_candidates_of_a_large_image_are_in_full_resolution_pixels() -> None:

@@ -1,4 +1,4 @@
-"""Quad hypotheses from a corner."""
+"""Quad hypotheses from a corner or from two opposite sides."""
 
 import cv2
 import numpy as np
@@ -6,7 +6,7 @@ import pytest
 
 from tests.tracker.scenes import Image8
 from tracker.geometry import Array
-from tracker.quads import Quads, corner_quads_of
+from tracker.quads import Quads, corner_quads_of, pair_quads_of
 
 SQUARE = np.array([[50.0, 40.0], [110.0, 45.0], [105.0, 100.0], [46.0, 96.0]])
 
@@ -63,3 +63,34 @@ def test_no_quad_is_tilted_more_than_a_marker_can_be() -> None:
 @pytest.mark.parametrize("count", [0, 1])
 def test_fewer_than_two_sides_make_none(count: int) -> None:
     assert corner_quads_of(_picture(), _sides(SQUARE)[:count], min_step_grey=5.0).shape == (0, 4, 2)
+
+
+@pytest.mark.parametrize("side", range(2))
+@pytest.mark.parametrize(("from_ratio", "to_ratio"), [(0.0, 1.0), (0.15, 0.85), (-0.15, 1.1), (0.3, 1.0)])
+def test_two_opposite_sides_suffice_wherever_they_end(side: int, from_ratio: float, to_ratio: float) -> None:
+    """Motion along them makes them longer or shorter."""
+    both = _sides(SQUARE)[[side, side + 2]].astype(np.float64)
+    begin, way = both[:, :2], both[:, 2:] - both[:, :2]
+    seen = np.hstack([begin + from_ratio * way, begin + to_ratio * way]).astype(np.float32)
+    for pair in (seen, seen[::-1]):
+        assert _nearest_px(pair_quads_of(np.ascontiguousarray(pair))) < 9.0
+
+
+def test_the_first_side_of_a_pair_quad_is_along_a_visible_one() -> None:
+    pair = _sides(SQUARE)[[1, 3]]
+    way = (pair[0, 2:] - pair[0, :2]) / np.linalg.norm(pair[0, 2:] - pair[0, :2])
+    quads = pair_quads_of(pair)
+    first = quads[:, 1] - quads[:, 0]
+    turned = np.abs(first @ way) / np.linalg.norm(first, axis=1)
+    assert len(quads) > 0
+    assert float(turned.min()) > 0.99
+
+
+def test_outward_facing_or_meeting_sides_make_no_pair() -> None:
+    sides = _sides(SQUARE)
+    assert len(pair_quads_of(np.ascontiguousarray(_sides(SQUARE[::-1])[[0, 2]]))) == 0
+    assert len(pair_quads_of(sides[:2])) == 0
+    # Far longer than they are apart: a tool's handle, no square.
+    handle = np.array([[0.0, 0.0, 200.0, 0.0], [200.0, 20.0, 0.0, 20.0]], np.float32)
+    assert len(pair_quads_of(handle)) == 0
+    assert len(pair_quads_of(sides[:0])) == 0

@@ -46,7 +46,7 @@ def template_match(image: GreyImage, quads: Quads, templates: Templates) -> Floa
 
 
 def coarse_match(
-    even: GreyImage, quads: Quads, templates: Templates, *, maximum: int
+    even: GreyImage, quads: Quads, templates: Templates, *, maximum: int, motion_blurred: bool = False
 ) -> tuple[Quads, Float32]:
     """Return the quads (q, 4, 2) that match a model best in 8 x 8 pixels, and their correlation (q, m, 4).
 
@@ -55,8 +55,11 @@ def coarse_match(
         quads: parallelograms.
         templates: of the models.
         maximum: number of quads to retain for each model.
+        motion_blurred: whether motion blurs them along their first side.
     """
-    pictures = np.concatenate([one.coarse for one in templates.each])
+    pictures = np.concatenate(
+        [one.motion_blurred if motion_blurred else one.coarse for one in templates.each]
+    )
     each = coarse_correlations(even, quads, COARSE_CELLS, pictures, DARK, LIGHT)
     ncc = each.reshape(len(templates), QUARTER_TURNS, len(quads)).transpose(2, 0, 1)
     selected = np.ones(len(quads), np.bool_)

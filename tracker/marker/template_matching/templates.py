@@ -64,6 +64,7 @@ class Template:
         rotated: (b, 4, n), in focus and out of focus, at four quarter rotations: rotation k is the appearance
             of a quad whose first corner is corner k of the model.
         coarse: (4, 64), rotated, at the size of the coarse match.
+        motion_blurred: (4, 64), the same, blurred by motion along the first side of the quad.
         upright: (p, n) under the occlusion masks: three defocus levels and motion in four directions.
         basis: (p, n, 10), template, constant, and derivatives by the corners to the right and downwards, per
             side.
@@ -74,6 +75,7 @@ class Template:
 
     rotated: Float32
     coarse: Float32
+    motion_blurred: Float32
     upright: OccludedTemplates
     basis: Float32
     factors: Float32
@@ -111,6 +113,9 @@ def _template_of(pixels: bytes, side: int) -> Template:
     return Template(
         rotated=np.ascontiguousarray(rotated, np.float32),
         coarse=np.array([_coarse_picture(one) for one in rotated[0]], np.float32),
+        motion_blurred=np.array(
+            [_coarse_picture(_motion_blurred_picture(upright, rotation)) for rotation in range(4)], np.float32
+        ),
         upright=_occluded(upright),
         basis=basis,
         factors=cholesky_factors(basis, OCCLUSION_MASKS, DAMPING, STIFFNESS),
@@ -168,6 +173,13 @@ def _basis(wide: Array, seen: Float32) -> Float32:
 def _occluded(pictures: Float32) -> OccludedTemplates:
     columns, mean, spread = occluded_templates(np.ascontiguousarray(pictures, np.float32), OCCLUSION_MASKS)
     return OccludedTemplates(columns=columns, mean=mean, spread=spread)
+
+
+def _motion_blurred_picture(upright: Float32, rotation: int) -> Float32:
+    """Return the template (n,) blurred along the side that is first after `rotation` quarter rotations."""
+    along = 0.0 if rotation % 2 == 0 else 90.0
+    picture = upright[len(BLURS_SIDES) + MOTIONS_DEG.index(along)]
+    return np.asarray(np.rot90(picture.reshape(ROWS, ROWS), rotation).ravel())
 
 
 def _coarse_picture(rotated: Float32) -> Array:
