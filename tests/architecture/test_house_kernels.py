@@ -3,6 +3,7 @@
 import ast
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TypeGuard
 
 import pytest
 
@@ -10,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 KERNELS = sorted((ROOT / "tracker").rglob("*_kernels.py"))
 
 
-def _is_compiled(node: ast.stmt) -> bool:
+def _is_compiled(node: ast.stmt) -> TypeGuard[ast.FunctionDef]:
     return isinstance(node, ast.FunctionDef) and any(
         isinstance(one, ast.Name) and one.id == "compiled" for one in node.decorator_list
     )
