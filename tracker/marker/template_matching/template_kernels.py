@@ -78,25 +78,6 @@ def products(rows, columns):
 
 
 @compiled
-def occluded_templates(pictures, occlusion_masks):
-    """Return masked templates as columns (n, p * c), with mean and sum of squares about it (p, c)."""
-    many, cells, count = len(pictures), pictures.shape[1], len(occlusion_masks)
-    columns = np.empty((cells, many * count), np.float32)
-    mean, spread = np.empty((many, count), np.float32), np.empty((many, count), np.float32)
-    for p in range(many):
-        for c in range(count):
-            total, square, size = 0.0, 0.0, 0.0
-            for i in range(cells):
-                value = pictures[p, i] * occlusion_masks[c, i]
-                columns[i, p * count + c] = value
-                total += value
-                square += value * value
-                size += occlusion_masks[c, i]
-            mean[p, c], spread[p, c] = total / size, max(square - total * total / size, 1e-9)
-    return columns, mean, spread
-
-
-@compiled
 def _compare(seen, columns, left, shared, sums, squares):
     """Compute the products of observed cells (n,) with the columns, and sums and squares under each mask."""
     # Contiguous inner loops, so that they vectorise.
@@ -130,49 +111,6 @@ def _best_match(seen, columns, mean, spread, left, sizes, shared, sums, squares)
         if fit > best:
             best, picture, mask = fit, like, c
     return np.sqrt(1.0 - np.exp(-best)), picture, mask
-
-
-@compiled
-def _cholesky_factor(basis, mask, damping, stiffness, matrix):
-    """Compute the lower Cholesky factor of the damped normal matrix of the visible cells.
-
-    Deviations from a parallelogram are damped more (`stiffness`), because perspective causes only small ones.
-    Unlike `solve_positive` it needs no scaling, because damping makes the matrix positive and all but two
-    unknowns are in sides.
-    """
-    matrix[:] = 0.0
-    for i in range(len(basis)):
-        if mask[i] == 0.0:
-            continue
-        for j in range(UNKNOWNS):
-            value = basis[i, j]
-            for k in range(UNKNOWNS):
-                matrix[j, k] += value * basis[i, k]
-    for j in range(2, UNKNOWNS):
-        matrix[j, j] += damping
-        for k in range(2, UNKNOWNS):
-            # Corner signs alternate: one diagonal extends while the other contracts.
-            if (j - k) % 2 == 0:
-                matrix[j, k] += stiffness if (j - k) % 4 == 0 else -stiffness
-    for j in range(UNKNOWNS):
-        for k in range(j + 1):
-            total = matrix[j, k]
-            for i in range(k):
-                total -= matrix[j, i] * matrix[k, i]
-            if j == k:
-                matrix[j, j] = np.sqrt(max(total, np.float32(1e-9)))
-            else:
-                matrix[j, k] = total / matrix[k, k]
-
-
-@compiled
-def cholesky_factors(basis, occlusion_masks, damping, stiffness):
-    """Return the factors (p, c, 10, 10) of the damped normal matrices of each template under each mask."""
-    factors = np.empty((len(basis), len(occlusion_masks), UNKNOWNS, UNKNOWNS), np.float32)
-    for p in range(len(basis)):
-        for c in range(len(occlusion_masks)):
-            _cholesky_factor(basis[p], occlusion_masks[c], damping, stiffness, factors[p, c])
-    return factors
 
 
 @compiled
