@@ -18,7 +18,7 @@ from tracker.navigation.clearance import bone_distance_field
 from tracker.navigation.uncertainty import Drill, PedicleTolerance, UncertainPose, analyse_drill
 from tracker.photometric import focal_length_error, refine_poses, textures_of
 from tracker.pipeline import Tracker
-from tracker.pipeline.warm_up_image import WarmUpImage, warm_up_image
+from tracker.pipeline.image import WarmUpImage, warm_up_image
 from tracker.plan import Channel, Surface
 from tracker.plan.pedicle import tube_model
 from tracker.plan.pedicle.wall_kernels import walls_around

@@ -3,6 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
+from tracker.geometry.geometry_kernels import median
 
 MAX_STEPS = 64
 DIAGONAL = np.float32(1.4142135)
@@ -15,14 +16,14 @@ END_WEIGHT = 0.6
 def median_magnitude(gx, gy, stride):
     """Return the median gradient magnitude over every `stride`-th pixel and row; NaN for an empty image."""
     height, width = gx.shape
-    found = np.empty(((height // stride) + 1) * ((width // stride) + 1), np.float32)
+    found = np.empty(((height // stride) + 1) * ((width // stride) + 1))
     n = 0
     for v in range(stride // 2, height, stride):
         for u in range(stride // 2, width, stride):
             a, b = np.float32(gx[v, u]), np.float32(gy[v, u])
             found[n] = np.sqrt(a * a + b * b)
             n += 1
-    return np.median(found[:n]) if n > 0 else np.nan
+    return median(found, n) if n > 0 else np.nan
 
 
 @compiled
@@ -290,19 +291,31 @@ def _continues(a, b, max_gap, max_off, min_cos):
 
 
 @compiled
+def starts_by_cell(segments, cell_px):
+    """Sort segments by the cell of their start, in a square grid with one empty cell before it.
+
+    Returns the first segment of each cell and the next one of each segment, -1 for none, and the number of
+    columns.
+    """
+    n, largest = len(segments), np.float32(0.0)
+    for j in range(n):
+        for k in range(4):
+            largest = max(largest, segments[j, k])
+    columns = int(largest / cell_px) + 3
+    head, after = np.full(columns * columns, -1, np.int32), np.full(n, -1, np.int32)
+    for j in range(n):
+        row, column = int(max(segments[j, 1], 0.0) / cell_px), int(max(segments[j, 0], 0.0) / cell_px)
+        cell = (row + 1) * columns + column + 1
+        after[j] = head[cell]
+        head[cell] = j
+    return head, after, columns
+
+
+@compiled
 def join_collinear(segments, max_gap, max_off, min_cos):
     """Join collinear segments that continue one another."""
     n = len(segments)
-    columns = int(segments.max() / max_gap) + 3
-    head = np.full(columns * columns, -1, np.int32)
-    after = np.full(n, -1, np.int32)
-    for j in range(n):
-        row, column = (
-            int(max(segments[j, 1], 0.0) / max_gap) + 1,
-            int(max(segments[j, 0], 0.0) / max_gap) + 1,
-        )
-        after[j] = head[row * columns + column]
-        head[row * columns + column] = j
+    head, after, columns = starts_by_cell(segments, max_gap)
     next_segment = np.full(n, -1, np.int32)
     has_previous = np.zeros(n, np.bool_)
     for i in range(n):

@@ -6,8 +6,8 @@ from tracker.compiled import compiled
 
 # Added to the unit diagonal of a scaled matrix: keeps undetermined unknowns at zero.
 RIDGE = 1e-9
-# No band structure: a dense matrix.
-NO_BAND = (0, 0)
+# No band structure: a dense matrix. No literals, see `compiled`.
+NO_BAND = (np.int64(0), np.int64(0))
 
 
 @compiled
@@ -51,8 +51,39 @@ def orthonormalise(m, out):
 
 
 @compiled
-def rotate_by(rotation, w):
-    """Left-multiply a rotation matrix by the rotation of vector `w`, in place."""
+def median(values, count):
+    """Return the median of the first `count` values, at least one, and reorder them."""
+    # Hoare's selection; `np.median` takes two seconds to compile for each type of array.
+    low, high, middle = 0, count - 1, count // 2
+    while low < high:
+        pivot, i, j = values[(low + high) // 2], low, high
+        while i <= j:
+            while values[i] < pivot:
+                i += 1
+            while pivot < values[j]:
+                j -= 1
+            if i <= j:
+                values[i], values[j] = values[j], values[i]
+                i += 1
+                j -= 1
+        if middle <= j:
+            high = j
+        elif middle >= i:
+            low = i
+        else:
+            break
+    if count % 2 == 1:
+        return values[middle]
+    below = values[0]
+    for k in range(1, middle):
+        below = max(below, values[k])
+    return 0.5 * (below + values[middle])
+
+
+@compiled
+def rotate_by(rotation, vector, share):
+    """Left-multiply a rotation matrix by the rotation of `share` times a vector (3,), in place."""
+    w = share * vector[0], share * vector[1], share * vector[2]
     angle = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
     a, b = 1.0, 0.5
     if angle > 1e-6:

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import chains_of, edgels_of
-from tracker.edges.gradient import Gradient
+from tracker.edges.edge_detection import Gradient
 from tracker.geometry import Array
 
 # Sizes of the marker in the image for which active edges are stored, a factor of 1.4 apart.

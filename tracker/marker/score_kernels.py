@@ -4,6 +4,7 @@ import numpy as np
 
 from tracker.compiled import compiled
 from tracker.edges.edge_kernels import crossing
+from tracker.geometry.geometry_kernels import median
 
 # Fewer edgels beside a corner do not determine its side.
 MIN_EDGELS = 4
@@ -39,7 +40,7 @@ def edge_agreement(gx, gy, left, top, points, normals, strength, length, inner, 
         if response[i] > 0.0:
             ratios[answers] = response[i] / strength[i]
             answers += 1
-    contrast = np.median(ratios[:answers]) if answers > 0 else 0.0
+    contrast = median(ratios, answers) if answers > 0 else 0.0
     common, total_length, inner_common, inner_total, squares, count = 0.0, 0.0, 0.0, 0.0, 0.0, 0
     for i in range(n):
         found = response[i] >= max(floor, ratio * contrast * strength[i])
@@ -61,14 +62,16 @@ def _side_at_corner(offset, along, chosen, n):
     """Return the offset of a side where `along` is 0, by a robust line through n offsets; NaN for too few."""
     if n < MIN_EDGELS:
         return np.nan
-    values = np.empty(n)
+    sorted_values = np.empty(n)
     for i in range(n):
-        values[i] = offset[chosen[i]]
-    middle = np.median(values)
-    maximum = 3.0 * max(np.median(np.abs(values - middle)), 0.05)
+        sorted_values[i] = offset[chosen[i]]
+    middle = median(sorted_values, n)
+    for i in range(n):
+        sorted_values[i] = abs(sorted_values[i] - middle)
+    maximum = 3.0 * max(median(sorted_values, n), 0.05)
     inliers, st, stt, so, sto = 0, 0.0, 0.0, 0.0, 0.0
     for i in range(n):
-        o, t = values[i], along[chosen[i]]
+        o, t = offset[chosen[i]], along[chosen[i]]
         if abs(o - middle) <= maximum:
             inliers += 1
             st += t
@@ -97,16 +100,17 @@ def shift_corners(points, across, normals, usable, offset, half, near, reach, co
         corners: (4, 2), top-left, top-right, bottom-right, bottom-left.
     """
     n = len(points)
-    chosen = np.empty(n, np.int64)
+    chosen, along = np.empty(n, np.int64), np.empty(n)
     off, normal = np.empty(2), np.empty((2, 2))
     for corner in range(4):
         at = (-half if corner in (0, 3) else half, half if corner < 2 else -half)
         for axis in range(2):
             # Axis 0: the upright side, which lies at the corner's x and runs along y.
-            along = points[:, 1 - axis] - at[1 - axis]
-            count = 0
-            normal[axis, :] = 0.0
+            # No literal, see `compiled`.
+            count = np.int64(0)
+            nu, nv = 0.0, 0.0
             for i in range(n):
+                along[i] = points[i, 1 - axis] - at[1 - axis]
                 if (
                     usable[i]
                     and abs(across[i, axis]) > 0.9
@@ -115,10 +119,11 @@ def shift_corners(points, across, normals, usable, offset, half, near, reach, co
                 ):
                     chosen[count] = i
                     count += 1
-                    normal[axis, 0] += normals[i, 0]
-                    normal[axis, 1] += normals[i, 1]
+                    nu += normals[i, 0]
+                    nv += normals[i, 1]
             off[axis] = _side_at_corner(offset, along, chosen, count)
-            normal[axis] /= np.sqrt(normal[axis, 0] ** 2 + normal[axis, 1] ** 2)
+            length = np.sqrt(nu * nu + nv * nv)
+            normal[axis, 0], normal[axis, 1] = nu / length, nv / length
         det = normal[0, 0] * normal[1, 1] - normal[0, 1] * normal[1, 0]
         if not abs(det) >= 0.2:
             continue
@@ -144,10 +149,12 @@ def _inside(corners, x, y, margin):
 def count_matched_edgels(at, ex, ey, enx, eny, strength, points, normals, corners, radius, margin, minimum):
     """Count the edgels inside the corners that lie near a model edge of their direction, and all of them."""
     height, width = at.shape
-    u0 = max(int(corners[:, 0].min() - margin), 0)
-    u1 = min(int(corners[:, 0].max() + margin) + 1, width - 1)
-    v0 = max(int(corners[:, 1].min() - margin), 0)
-    v1 = min(int(corners[:, 1].max() + margin) + 1, height - 1)
+    left, right, top, bottom = corners[0, 0], corners[0, 0], corners[0, 1], corners[0, 1]
+    for k in range(1, 4):
+        left, right = min(left, corners[k, 0]), max(right, corners[k, 0])
+        top, bottom = min(top, corners[k, 1]), max(bottom, corners[k, 1])
+    u0, u1 = max(int(left - margin), 0), min(int(right + margin) + 1, width - 1)
+    v0, v1 = max(int(top - margin), 0), min(int(bottom + margin) + 1, height - 1)
     if u1 < u0 or v1 < v0:
         return 0, 0
     # Model edges by cells as wide as the radius: those near an edgel are in its cell or one beside it.

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.geometry import Array
+from tracker.photometric.equation_kernels import illumination_pattern_chi2
 from tracker.photometric.fit import (
     CONVERGED_REFIT_CHI2,
     CUTOFF_SDS,
@@ -31,7 +32,6 @@ from tracker.photometric.illumination_kernels import (
     parameter_count,
     typical_contrast,
 )
-from tracker.photometric.pattern_kernels import illumination_pattern_chi2
 from tracker.photometric.response_kernels import RESPONSE
 from tracker.photometric.samples import Samples, subsample
 

@@ -143,7 +143,8 @@ def evaluate_illumination(at, parameters, illumination, dark_contrast):
     """Write dark level and contrast of each pixel, in grey levels, into `dark_contrast` (n, 2)."""
     kind, nodes = illumination
     if kind == PLANAR:
-        d, dx, dy, c, cx, cy = parameters[ILLUMINATION : ILLUMINATION + PLANAR_PARAMETERS]
+        plane = parameters[ILLUMINATION:]
+        d, dx, dy, c, cx, cy = plane[0], plane[1], plane[2], plane[3], plane[4], plane[5]
         for i in range(len(at)):
             dark_contrast[i, 0] = d + dx * at[i, 0] + dy * at[i, 1]
             dark_contrast[i, 1] = c + cx * at[i, 0] + cy * at[i, 1]
@@ -249,7 +250,10 @@ def typical_contrast(parameters, illumination):
     if kind == ADDITIVE:
         return max(abs(parameters[ILLUMINATION + both]), 1.0)
     first = ILLUMINATION + (both if kind == FREE else 0)
-    return max(abs(parameters[first : first + both].mean()), 1.0)
+    total = 0.0
+    for k in range(first, first + both):
+        total += parameters[k]
+    return max(abs(total / both), 1.0)
 
 
 @compiled

@@ -14,9 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracker.geometry import Array
-from tracker.photometric.fit import FitResult, fit_pose, refit_all, robust_chi2_of
+from tracker.photometric.fit import FitResult, fit_pose, refit_all, robust_chi2_of, with_mirror_solution
 from tracker.photometric.illumination_kernels import typical_contrast
-from tracker.photometric.mirror_solution import with_mirror_solution
 from tracker.photometric.response_kernels import BLUR
 from tracker.photometric.samples import Samples, subsample
 

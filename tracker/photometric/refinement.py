@@ -27,6 +27,7 @@ from tracker.photometric.fit import (
     plausible_fits,
     refit_all,
     robust_chi2_of,
+    with_mirror_solution,
 )
 from tracker.photometric.illumination import (
     KnownIllumination,
@@ -43,7 +44,6 @@ from tracker.photometric.illumination_kernels import (
     typical_contrast,
 )
 from tracker.photometric.inner_region import fit_inner_region
-from tracker.photometric.mirror_solution import with_mirror_solution
 from tracker.photometric.refinement_kernels import clustered_covariance
 from tracker.photometric.response_kernels import BLUR, RESPONSE
 from tracker.photometric.samples import OccludedAt, Samples, sample_pixels, subsample

@@ -37,6 +37,8 @@ from tracker.photometric.response_kernels import (
 # quadratic convergence, by less than a tenth.
 CONVERGED_COST_CHI2 = 0.3
 MIN_CURVATURE_RATIO = 0.3
+# What `predict` computes. No literals, see `compiled`.
+ALL_DERIVATIVES, POSE_DERIVATIVES = np.int64(1), np.int64(0)
 # Maximum growth of the blur's variance in one step.
 MAX_WIDENED = 4.0
 
@@ -68,7 +70,7 @@ def _apply_step(rotation, translation, parameters, step, share, min_blur):
     max_blur = MAX_WIDENED * max(blur[0], blur[1])
     for k in range(3):
         translation[k] += share * step[k]
-    rotate_by(rotation, share * step[3:6])
+    rotate_by(rotation, step[3:6], share)
     for k in range(6, len(parameters)):
         parameters[k] += share * step[k]
     clamp_blur(blur, min_blur, max_blur)
@@ -144,7 +146,7 @@ def refine_pose(
     failed = (a, 0.0, 0.0, False, seen)
     blur = parameters[BLUR : BLUR + 3]
     if n < 2 * PLANAR_COUNT or not predict(
-        rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True
+        rays, lens, rotation, translation, side_mm, blur, tex, rows, at, ALL_DERIVATIVES
     ):
         return failed
     if scale == 0.0:
@@ -178,7 +180,9 @@ def refine_pose(
         if facing and gain < min_gain_chi2 * scale * scale and share == 1.0:
             break
         new_cost = np.inf
-        if facing and predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
+        if facing and predict(
+            rays, lens, rotation, translation, side_mm, blur, tex, rows, at, ALL_DERIVATIVES
+        ):
             evaluate_illumination(at, parameters, illumination, dark_contrast)
             new_cost = _cost(
                 rows, values, dark_contrast, parameters, illumination, reliability, scale, cutoff, workspace
@@ -205,7 +209,10 @@ def refine_pose(
         )
         if ends:
             break
-    return a, scale, total / reliability.sum(), True, seen
+    reliable = 0.0
+    for one in reliability:
+        reliable += one
+    return a, scale, total / reliable, True, seen
 
 
 @compiled
@@ -219,7 +226,7 @@ def robust_cost(
     n = len(values)
     rows, at, dark_contrast, reliability = np.empty((10, n)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
     blur = parameters[BLUR : BLUR + 3]
-    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
+    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, POSE_DERIVATIVES):
         return np.inf
     evaluate_illumination(at, parameters, illumination, dark_contrast)
     pixel_reliability(at, lens, rotation, translation, side_mm, parameters, illumination, scale, reliability)
@@ -270,11 +277,17 @@ def clustered_covariance(values, seen, parameters, illumination, scale, cutoff, 
         for m in range(6):
             for k in range(len(parameters)):
                 moved[block, m] += inverse[m, k] * scores[block, k]
-    count = there.sum()
+    count = 0.0
+    for one in there:
+        count += one
     for block in range(blocks * blocks):
         for m in range(6):
             for k in range(6):
                 spread[m, k] += moved[block, m] * moved[block, k]
     # The normal matrix contains the weights, but the derivative of the robust score by the pose is smaller.
     answer = weights / max(stiffness, MIN_CURVATURE_RATIO * weights)
-    return spread * (answer**2 * count / max(count - 6.0, 1.0))
+    answer *= answer * count / max(count - 6.0, 1.0)
+    for m in range(6):
+        for k in range(6):
+            spread[m, k] *= answer
+    return spread

@@ -1,20 +1,126 @@
-"""Predicted grey values of pixels from the blurred texture, and their derivatives by pose and blur."""
+"""Predicted grey values of pixels from the blurred texture, and their derivatives by pose and blur.
+
+A blur kernel is approximated by samples of one prerendered texture level. Defocus is an isotropic Gaussian
+PSF in the image, motion blur a box along a line; on a tilted marker both are stretched. A longer Gaussian of
+equal variance leaves a tenth of the contrast unexplained at 10 px of motion: tip errors of camera B were nine
+times the Cramer-Rao bound, against 1.2 times with the line.
+"""
 
 import math
 
 import numpy as np
 
-from tracker.camera.blur_kernels import mapped
+from tracker.camera.blur_kernels import MAX_GAUSSIAN_SAMPLES, gaussian_on_level, mapped, motion_blur_of
 from tracker.camera.projection_kernels import project_with_derivative
 from tracker.compiled import compiled
 from tracker.marker.model import PAPER_RATIO
-from tracker.photometric.blur_kernels import MAX_KERNEL_SAMPLES, kernel_samples_of
-from tracker.photometric.texture_kernels import add_texture_samples
 
+# Below this ratio of extra variance along one direction, the first-order term suffices without kernel
+# samples.
+FIRST_ORDER_RATIO = 0.1
+# Spacing of kernel samples in sd of the texture's blur: farther apart, they become visible separately.
+SAMPLE_SPACING_SDS = 1.25
+MAX_LINE_SAMPLES = 41
+MIN_SIDES2 = 1e-8
+MAX_KERNEL_SAMPLES = MAX_GAUSSIAN_SAMPLES * MAX_LINE_SAMPLES
 # Beyond this many sd of the blur, the background does not contribute to a pixel.
 FAR_SDS = 4.0
 # Pixels are processed in batches of this size, so that loops vectorise and the data stay in the cache.
 BATCH = 256
+
+
+@compiled
+def kernel_samples_of(plane_per_px, blur, blurs, kernel_samples):
+    """Fill `kernel_samples` (4, n) with the samples of a blur kernel (3,) given in px^2.
+
+    Rows: shifts along x and y in sides, weights, shifts along the motion in px. `blurs`: sd of each texture
+    level in sides. Returns the texture level, the number of samples, a direction in the plane with the
+    variances along and across it that remain to first order, in sides^2, and the motion blur: its variance
+    and direction.
+    """
+    motion, sx, sy = motion_blur_of(blur)
+    gaussian = blur.copy()
+    gaussian[0] -= motion * sx * sx
+    gaussian[1] -= motion * sy * sy
+    gaussian[2] -= motion * sx * sy
+    m00, m11, m01 = mapped(plane_per_px, gaussian)
+    offsets, weights = np.empty(MAX_GAUSSIAN_SAMPLES), np.empty(MAX_GAUSSIAN_SAMPLES)
+    level, gaussian_samples, ex, ey, along, across = gaussian_on_level(
+        m00, m11, m01, blurs, MIN_SIDES2, FIRST_ORDER_RATIO, SAMPLE_SPACING_SDS, offsets, weights
+    )
+    # Displacement on the plane per pixel along the motion.
+    px, py = (
+        plane_per_px[0, 0] * sx + plane_per_px[0, 1] * sy,
+        plane_per_px[1, 0] * sx + plane_per_px[1, 1] * sy,
+    )
+    lines, gap = 1, 0.0
+    if motion > 0.0:
+        length = np.sqrt(12.0 * motion)
+        lines = int(np.ceil(length * np.sqrt(px * px + py * py) / (SAMPLE_SPACING_SDS * blurs[level])))
+        lines = min(max(lines, 3), MAX_LINE_SAMPLES)
+        # This spacing gives the discrete samples the variance of the continuous line.
+        gap = length / np.sqrt(lines * lines - 1.0)
+    count = 0
+    for j in range(lines):
+        moved = (j - 0.5 * (lines - 1)) * gap
+        for k in range(gaussian_samples):
+            kernel_samples[0, count], kernel_samples[1, count] = (
+                offsets[k] * ex + moved * px,
+                offsets[k] * ey + moved * py,
+            )
+            kernel_samples[2, count], kernel_samples[3, count] = weights[k] / lines, moved
+            count += 1
+    return level, count, (ex, ey, along, across), (motion, sx, sy)
+
+
+@compiled
+def add_texture_samples(texels, start, size, texel, at, begin, count, right, up, weight, workspace, out):
+    """Add weighted texture value, slopes and curvatures at shifted points to `out` (6, many).
+
+    `at` (n, 2) in half sides, shift (right, up) in sides. `workspace`: texels (12, many), texel indices
+    (many,), fractions (2, many).
+    """
+    found, index, part = workspace
+    half, maximum = 0.5 * (size - 1), size - 1.001
+    for k in range(count):
+        x = min(max((0.5 * at[begin + k, 0] + right) / texel + half, 0.0), maximum)
+        y = min(max(half - (0.5 * at[begin + k, 1] + up) / texel, 0.0), maximum)
+        c, r = int(x), int(y)
+        part[0, k], part[1, k] = x - c, y - r
+        index[k] = start + 3 * (r * size + c)
+    row = 3 * size
+    # Gather first, so that the interpolation vectorises.
+    for k in range(count):
+        upper, lower = texels[index[k] : index[k] + 6], texels[index[k] + row : index[k] + row + 6]
+        for m in range(6):
+            found[m, k], found[6 + m, k] = upper[m], lower[m]
+    _interpolate(found, part, count, texel, weight, out)
+
+
+@compiled
+def _interpolate(found, part, count, texel, weight, out):
+    """Interpolate value, slopes and curvatures between four texels (12, many); add them to `out`."""
+    v0, r0, u0, v1, r1, u1 = found[0], found[1], found[2], found[3], found[4], found[5]
+    v2, r2, u2, v3, r3, u3 = found[6], found[7], found[8], found[9], found[10], found[11]
+    value, right, up, xx_out, yy_out, xy_out = out[0], out[1], out[2], out[3], out[4], out[5]
+    ways, downs = part[0], part[1]
+    response_row, scale = 0.5 * texel, weight / texel
+    for k in range(count):
+        fx, fy = ways[k], downs[k]
+        gx, gy = 1.0 - fx, 1.0 - fy
+        a, b, d, e = gx * gy, fx * gy, gx * fy, fx * fy
+        right[k] += weight * (a * r0[k] + b * r1[k] + d * r2[k] + e * r3[k])
+        up[k] += weight * (a * u0[k] + b * u1[k] + d * u2[k] + e * u3[k])
+        # Slopes are per side to the right and upwards; rows run downwards.
+        xx = gy * (r1[k] - r0[k]) + fy * (r3[k] - r2[k])
+        yy = gx * (u0[k] - u2[k]) + fx * (u1[k] - u3[k])
+        xy = gx * (r0[k] - r2[k]) + fx * (r1[k] - r3[k])
+        xx_out[k] += scale * xx
+        yy_out[k] += scale * yy
+        xy_out[k] += scale * xy
+        # Second-order correction of the bilinear interpolation, which underestimates curvature.
+        bends = response_row * (fx * gx * xx + fy * gy * yy)
+        value[k] += weight * (a * v0[k] + b * v1[k] + d * v2[k] + e * v3[k] - bends)
 
 
 @compiled
@@ -157,7 +263,10 @@ def _convolve(
         right, up, weight = kernel_samples[0, k], kernel_samples[1, k], kernel_samples[2, k]
         one[:, :] = 0.0
         add_texture_samples(texels, start, size, texel, at, begin, count, right, up, weight, workspace, one)
-        seen += one
+        for m in range(6):
+            total, part = seen[m], one[m]
+            for i in range(count):
+                total[i] += part[i]
         for m in range(2):
             out, slope, moved = motion_slopes[m], one[1 + m], kernel_samples[3, k]
             for i in range(count):
@@ -165,11 +274,11 @@ def _convolve(
 
 
 @compiled
-def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, free):
+def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, by_blur):
     """Predict pixel values and derivatives: `rows` (10, n), and plane coordinates `at` (n, 2) in half sides.
 
-    Rows: value 0..1, derivatives by translation (3), rotation (3) and blur (3). Returns False where the
-    marker cannot be visible at this pose.
+    Rows: value 0..1, derivatives by translation (3), rotation (3) and, with `by_blur`, blur (3). Returns
+    False where the marker cannot be visible at this pose.
     """
     plane_per_px, kernel_samples = np.empty((2, 2)), np.empty((4, MAX_KERNEL_SAMPLES))
     if translation[2] < 1.0 or not footprint(rotation, translation, lens, side_mm, plane_per_px):
@@ -195,6 +304,6 @@ def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, fre
             motion_slopes,
         )
         _pose_derivatives(rays, begin, count, rotation, translation, side_mm, seen, spread, rows)
-        if free:
+        if by_blur:
             _blur_derivatives(begin, count, seen, motion_slopes, plane_per_px, motion, rows)
     return True

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
-from tracker.geometry.geometry_kernels import add_products, copy_vector, solve_positive
+from tracker.geometry.geometry_kernels import add_products, copy_vector, median, solve_positive
 
 # Parameters of a fit: translation 3, rotation 3, blur 3 (variances along u, v, covariance), response 1,
 # illumination.
@@ -78,7 +78,9 @@ def fit_planar_illumination(picture, at, values, parameters, scale, cutoff):
             for i in range(n):
                 residuals[i] -= out[m] * rows[m, i]
         if iteration == 0:
-            scale = max(1.4826 * np.median(np.abs(residuals)), scale)
+            for i in range(n):
+                workspace[i] = abs(residuals[i])
+            scale = max(1.4826 * median(workspace, n), scale)
         for i in range(n):
             weights[i] = 1.0 / (1.0 + (residuals[i] / (cutoff * scale)) ** 2) ** 2
     copy_vector(out, parameters[ILLUMINATION:])

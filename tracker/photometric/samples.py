@@ -53,12 +53,14 @@ def sample_pixels(
 ) -> Samples:
     """Select the pixels that constrain the pose near a start at this blur (3,), without occluded ones."""
     rays, values = np.empty((MAX_PIXELS, 2)), np.empty(MAX_PIXELS)
+    # Copies, because Numba compiles a kernel again for arrays that are read-only.
+    rotation, translation_mm = start.rotation.copy(), start.translation_mm.copy()
     count = select_pixels(
         image,
         step,
         lens,
-        start.rotation,
-        start.translation_mm,
+        rotation,
+        translation_mm,
         side_mm,
         REACH_RATIO,
         textures.arrays,
@@ -71,7 +73,7 @@ def sample_pixels(
     rays, values = rays[:count], values[:count]
     if occluded_at is not None:
         at = np.empty_like(rays)
-        rays_to_plane(rays, 0, count, start.rotation, start.translation_mm, side_mm, at)
+        rays_to_plane(rays, 0, count, rotation, translation_mm, side_mm, at)
         # `at` is in half sides.
         seen = ~occluded_at(0.5 * at)
         rays, values = np.ascontiguousarray(rays[seen]), values[seen]

@@ -21,10 +21,9 @@ from tracker.photometric import textures_of
 from tracker.pipeline.fitter import Fitter
 from tracker.pipeline.focal_length import FocalLengthMonitor
 from tracker.pipeline.idle_search import IdleSearch
-from tracker.pipeline.image import RepeatedPatch, grey_of, image_context_of
+from tracker.pipeline.image import RepeatedPatch, grey_of, image_context_of, warm_up_image
 from tracker.pipeline.search import Search
 from tracker.pipeline.second_prints import SecondPrints
-from tracker.pipeline.warm_up_image import warm_up_image
 from tracker.pose import (
     ImageContext,
     Prior,

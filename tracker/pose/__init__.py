@@ -3,9 +3,11 @@
 from tracker.pose.acceptance import OccurrenceContext, verify_occurrence
 from tracker.pose.occurrence import (
     Occurrence,
+    Window,
     corners_px_at,
     occurrence_near,
     side_px_of,
+    window_around,
     with_target_coverage,
 )
 from tracker.pose.photometric_refinement import ImageContext
@@ -16,11 +18,20 @@ from tracker.pose.prior import Prior
 from tracker.pose.refinement import EdgeFit, fit_pose_to_edges
 from tracker.pose.rolling_shutter import RollingShutter
 from tracker.pose.second_order import covariance_at_lever, marker_point_covariance_mm2
-from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason, is_twice_in_view
+from tracker.pose.sighting import (
+    FoundBy,
+    Seen,
+    Sighting,
+    Unseen,
+    UnseenReason,
+    differ_by_rotation,
+    is_same_square,
+    is_twice_in_view,
+    rank_score,
+    suppress_overlaps,
+)
 from tracker.pose.smoothing import PoseSmoother, SmoothedPose, SmoothingSettings
-from tracker.pose.suppression import differ_by_rotation, is_same_square, rank_score, suppress_overlaps
 from tracker.pose.tool import ToolModel
-from tracker.pose.window import Window, window_around
 
 __all__ = [
     "DECIDED_COST",

@@ -1,7 +1,7 @@
-"""One occurrence of a marker model in the image: fitted to its edges and scored."""
+"""One occurrence of a marker model in the image: its region, the fit to its edges, its score and corners."""
 
 from dataclasses import dataclass, replace
-from math import sqrt
+from math import ceil, dist, floor, sqrt
 
 import numpy as np
 
@@ -13,16 +13,25 @@ from tracker.marker import (
     ActiveEdges,
     Agreement,
     MarkerModel,
+    edge_crossings,
     model_agreement,
     target_coverage_ratio,
 )
-from tracker.pose.corners import measured_corners_px
+from tracker.marker.score_kernels import shift_corners
 from tracker.pose.refinement import EdgeFit, fit_pose_to_edges, projected_edges
 
 # Before the fit, corners may be wrong by a pixel or two, and some edges are then outside the search range.
 MIN_FIT_COVERAGE = 0.3
 # A candidate that moves by more than half its side during the fit is not the marker.
 MAX_DRAG_SIDE_RATIO = 0.5
+MARGIN_PX, MARGIN_SIDE_RATIO, MIN_PX = 8.0, 0.15, 24
+# Left, top, right, bottom [px]; right and bottom are exclusive.
+Window = tuple[int, int, int, int]
+# Part of each side, next to a corner, whose edgels locate the corner: short enough to be straight on bent
+# paper, long enough to average noise.
+NEAR_SIDE_RATIO = 0.35
+# Beyond this distance from the projected edge, an edgel belongs to something else.
+MAX_OFF_PX, MAX_OFF_SIDE_RATIO = 1.5, 0.04
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,3 +149,62 @@ def with_target_coverage(
         contrast=found.agreement.contrast,
     )
     return replace(found, agreement=replace(found.agreement, target_coverage_ratio=ratio))
+
+
+def window_around(corners_px: Array, *, reach_px: float, size_wh_px: tuple[int, int]) -> Window | None:
+    """Return left, top, right, bottom (px) of the region that can contain a marker expected at these corners.
+
+    Returns None where too little of it lies inside the image.
+    """
+    margin = reach_px + MARGIN_PX + MARGIN_SIDE_RATIO * side_px_of(corners_px)
+    width, height = size_wh_px
+    across, down = corners_px.T.tolist()
+    left, top = max(floor(min(across) - margin), 0), max(floor(min(down) - margin), 0)
+    right, bottom = min(ceil(max(across) + margin), width), min(ceil(max(down) + margin), height)
+    if right - left < MIN_PX or bottom - top < MIN_PX:
+        return None
+    return left, top, right, bottom
+
+
+def measured_corners_px(
+    gradient: Gradient,
+    active: ActiveEdges,
+    points_px: Array,
+    normals_px: Array,
+    *,
+    corners_px: Array,
+    contrast: float,
+) -> Array:
+    """Return corners (4, 2), top-left, top-right, bottom-right, bottom-left, measured on the adjacent sides.
+
+    The pose assumes a flat square with unshifted edges, but bent paper and the camera response displace the
+    corners in the image. A corner with too few edgels next to it (occluded, or outside the image) is returned
+    at its projected position.
+
+    Args:
+        gradient: gradient of the image around the marker.
+        active: the model's active edges.
+        points_px: (n, 2), the active edges projected at the pose.
+        normals_px: (n, 2), their unit normals, dark to bright.
+        corners_px: (4, 2), the corners projected at the pose.
+        contrast: gradient magnitude of an unoccluded edge of this occurrence.
+    """
+    half = active.half_mm
+    c = corners_px.tolist()
+    side_px = (dist(c[0], c[1]) + dist(c[1], c[2]) + dist(c[2], c[3])) / 3.0
+    reach = MAX_OFF_PX + MAX_OFF_SIDE_RATIO * side_px
+    offset, response = edge_crossings(gradient, points_px, normals_px, reach_px=reach)
+    usable = active.sides & (response > 0.5 * contrast * active.strength_ratio)
+    out = corners_px.copy()
+    shift_corners(
+        active.points_mm,
+        active.normals,
+        normals_px,
+        usable,
+        offset,
+        half,
+        2.0 * half * NEAR_SIDE_RATIO,
+        reach,
+        out,
+    )
+    return out

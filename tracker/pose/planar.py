@@ -8,8 +8,7 @@ import numpy as np
 from tracker.camera import CameraModel
 from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
 from tracker.geometry.geometry_kernels import mirror
-from tracker.pose.foreshortening_kernels import pose_from_foreshortening
-from tracker.pose.pose_kernels import fit_square
+from tracker.pose.pose_kernels import fit_square, pose_from_foreshortening
 
 # The closed form is accurate to a few pixels, and Gauss-Newton converges quadratically.
 FIT_ROUNDS = 6

@@ -5,7 +5,14 @@ import numpy as np
 from tracker.camera.projection_kernels import project_with_derivative
 from tracker.compiled import compiled
 from tracker.edges.edge_kernels import crossing
-from tracker.geometry.geometry_kernels import copy_pose, copy_vector, mirror, rotate_by, solve_positive
+from tracker.geometry.geometry_kernels import (
+    copy_pose,
+    copy_vector,
+    median,
+    mirror,
+    rotate_by,
+    solve_positive,
+)
 
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
 MIN_EDGES = 12
@@ -15,6 +22,56 @@ MIN_MOVE_PX, NEAR_MOVE_PX = 0.004, 0.3
 OVER_RELAXATION = 1.25
 # A fit that moves less than this at a much higher cost cannot become the better one.
 EARLY_STOP_MOVE_PX = 0.1
+
+
+@compiled
+def pose_from_foreshortening(homography, rotation, translation):
+    """Write the pose whose projection equals a homography (3, 3) from the plane in mm to first order.
+
+    Returns False where there is none. In a frame whose z is the line of sight, the Jacobian of the projection
+    is the upper left block of the rotation divided by the distance; the unit norm of each column gives its
+    component along the line of sight.
+    """
+    unit = 1.0 / homography[2, 2]
+    x, y = unit * homography[0, 2], unit * homography[1, 2]
+    away = np.sqrt(1.0 + x * x + y * y)
+    # Columns: right, down, along the line of sight.
+    frame = np.empty((3, 3))
+    frame[0, 2], frame[1, 2], frame[2, 2] = x / away, y / away, 1.0 / away
+    across = np.sqrt(frame[2, 2] ** 2 + frame[0, 2] ** 2)
+    frame[0, 0], frame[1, 0], frame[2, 0] = frame[2, 2] / across, 0.0, -frame[0, 2] / across
+    frame[0, 1] = frame[1, 2] * frame[2, 0]
+    frame[1, 1] = frame[2, 2] * frame[0, 0] - frame[0, 2] * frame[2, 0]
+    frame[2, 1] = -frame[1, 2] * frame[0, 0]
+    a, b = away * (frame[0, 0] - x * frame[2, 0]), away * (frame[0, 1] - x * frame[2, 1])
+    c, d = away * (frame[1, 0] - y * frame[2, 0]), away * (frame[1, 1] - y * frame[2, 1])
+    det = a * d - b * c
+    seen, columns = np.empty((2, 2)), np.empty((3, 3))
+    for k in range(2):
+        p = unit * (homography[0, k] - x * homography[2, k])
+        q = unit * (homography[1, k] - y * homography[2, k])
+        seen[0, k], seen[1, k] = (d * p - b * q) / det, (a * q - c * p) / det
+    # The tilt shortens one singular value; the larger one is the scale.
+    squares = seen[0, 0] ** 2 + seen[0, 1] ** 2 + seen[1, 0] ** 2 + seen[1, 1] ** 2
+    area = seen[0, 0] * seen[1, 1] - seen[0, 1] * seen[1, 0]
+    scale = np.sqrt(0.5 * (squares + np.sqrt(max(squares * squares - 4.0 * area * area, 0.0))))
+    if not scale > 1e-12:
+        return False
+    for k in range(2):
+        columns[0, k], columns[1, k] = seen[0, k] / scale, seen[1, k] / scale
+        columns[2, k] = np.sqrt(max(1.0 - columns[0, k] ** 2 - columns[1, k] ** 2, 0.0))
+    if columns[0, 0] * columns[0, 1] + columns[1, 0] * columns[1, 1] > 0.0:
+        columns[2, 1] = -columns[2, 1]
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        columns[k, 2] = columns[i, 0] * columns[j, 1] - columns[j, 0] * columns[i, 1]
+    for r in range(3):
+        translation[r] = frame[r, 2] / scale
+        for k in range(3):
+            rotation[r, k] = 0.0
+            for m in range(3):
+                rotation[r, k] += frame[r, m] * columns[m, k]
+    return True
 
 
 @compiled
@@ -130,7 +187,7 @@ def _normalised_mad(values, shift, found, sizes):
         if found[i]:
             sizes[n] = abs(values[i] - shift)
             n += 1
-    return 1.4826 * np.median(sizes[:n])
+    return 1.4826 * median(sizes, n)
 
 
 @compiled
@@ -143,7 +200,7 @@ def _apply_step(rotation, translation, step):
     short = 0.5 / angle if angle > 0.5 else 1.0
     for k in range(3):
         translation[k] += short * step[k]
-    rotate_by(rotation, short * step[3:6])
+    rotate_by(rotation, step[3:6], short)
     facing = (
         rotation[0, 2] * translation[0] + rotation[1, 2] * translation[1] + rotation[2, 2] * translation[2]
     )
@@ -228,7 +285,8 @@ def _refine(
         if not solve_positive(a, g, step):
             return False
         if iteration > 0 and moved < NEAR_MOVE_PX:
-            step *= OVER_RELAXATION
+            for k in range(PARAMETERS):
+                step[k] *= OVER_RELAXATION
         if not _apply_step(rotation, translation, step):
             return False
         shift += step[6]
@@ -282,7 +340,7 @@ def fit_square(corners, half, rotation, translation, rounds):
             return left
         for m in range(3):
             translation[m] += step[m]
-        rotate_by(rotation, step[3:6])
+        rotate_by(rotation, step[3:6], 1.0)
     return before
 
 
@@ -303,6 +361,9 @@ def fit_both_solutions(
         robust cost in px^2, shift common to all edges in px, weighted sum of squared residuals in px^2, sum
         of weights, number of edges; then the index of the better and of the other, -1 where there is none.
     """
+    total_strength = 0.0
+    for one in strength:
+        total_strength += one
     rotations, translations = np.empty((3, 3, 3)), np.empty((3, 3))
     matrices, statistics = np.zeros((3, PARAMETERS, PARAMETERS)), np.zeros((3, 5))
     seed_rotation, seed_translation = rotation.copy(), translation.copy()
@@ -339,7 +400,7 @@ def fit_both_solutions(
             copy_pose(rotations[free], translations[free], seed_rotation, seed_translation)
             cost, squares, weights = statistics[free, 0], statistics[free, 2], statistics[free, 3]
             abandon_above_px2 = cost + decided * max(
-                squares / weights, cost / max(strength.sum(), 1.0), min_px2
+                squares / weights, cost / max(total_strength, 1.0), min_px2
             )
         for slot in range(3):
             if slot not in (better, other):

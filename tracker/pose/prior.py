@@ -67,7 +67,7 @@ class Prior:
         moved = np.zeros(6) if self.rates is None else self.rates * ahead
         translation = self.pose.translation_mm + moved[:3]
         rotation = self.pose.rotation.copy()
-        rotate_by(rotation, moved[3:])
+        rotate_by(rotation, moved[3:], 1.0)
         if translation[2] <= 1.0 or float(rotation[:, 2] @ translation) >= 0.0:
             return None
         pose: Rigid[Camera, Marker] = Rigid(rotation=rotation, translation_mm=translation)

@@ -144,8 +144,9 @@ def projected_edges(
     camera: CameraModel, pose: Rigid[Camera, Marker], active: ActiveEdges
 ) -> tuple[Array, Array] | None:
     """Return active edges in px (n, 2) and unit normals (n, 2), dark to bright; None behind the camera."""
+    # Copies, because Numba compiles a kernel again for arrays that are read-only.
     pixels, directions, in_front = project_edges(
-        pose.rotation, pose.translation_mm, camera.lens, active.points_mm, active.normals
+        pose.rotation.copy(), pose.translation_mm.copy(), camera.lens, active.points_mm, active.normals
     )
     return (pixels, directions) if in_front else None
 

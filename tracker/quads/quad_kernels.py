@@ -3,11 +3,12 @@
 import numpy as np
 
 from tracker.compiled import compiled
+from tracker.edges.edge_kernels import starts_by_cell
 from tracker.geometry.geometry_kernels import is_plausible_foreshortening
 
 MAX_SUCCESSORS = 8
 MAX_CORNER_QUADS = 12000
-CELL_PX = 16
+CELL_PX = np.float32(16.0)
 MAX_GAP_PX = 30.0
 MAX_PAIR_QUADS = 40000
 # Opposite sides have opposite directions, up to a sixth of a radian by perspective.
@@ -37,21 +38,11 @@ def _intersection(a, b, out):
 def successors_of(segments):
     """Return for each segment those that may follow it round a corner, nearest first."""
     n = len(segments)
-    columns = int(segments[:, :].max() / CELL_PX) + 3
-    head = np.full(columns * columns, -1, np.int32)
-    after = np.full(n, -1, np.int32)
-    for j in range(n):
-        cell = (
-            (int(max(segments[j, 1], 0.0)) // CELL_PX + 1) * columns
-            + int(max(segments[j, 0], 0.0)) // CELL_PX
-            + 1
-        )
-        after[j] = head[cell]
-        head[cell] = j
+    head, after, columns = starts_by_cell(segments, CELL_PX)
     successors = np.full((n, MAX_SUCCESSORS), -1, np.int32)
     gaps = np.empty((n, MAX_SUCCESSORS), np.float32)
     counts = np.zeros(n, np.int32)
-    corner = np.empty(2, np.float32)
+    corner = np.empty(2)
     length, dx, dy = np.empty(n, np.float32), np.empty(n, np.float32), np.empty(n, np.float32)
     for i in range(n):
         length[i] = _length(segments[i])
@@ -61,8 +52,8 @@ def successors_of(segments):
         a = segments[i]
         la, dax, day, au, av = length[i], dx[i], dy[i], a[2], a[3]
         reach = min(np.float32(3.0) + np.float32(0.3) * la, np.float32(MAX_GAP_PX))
-        cu, cv = int(max(a[2], 0.0)) // CELL_PX + 1, int(max(a[3], 0.0)) // CELL_PX + 1
-        cells = int(reach) // CELL_PX + 1
+        cu, cv = int(max(a[2], 0.0) / CELL_PX) + 1, int(max(a[3], 0.0) / CELL_PX) + 1
+        cells = int(reach / CELL_PX) + 1
         for row in range(max(cv - cells, 0), min(cv + cells + 1, columns)):
             for column in range(max(cu - cells, 0), min(cu + cells + 1, columns)):
                 j = head[row * columns + column]

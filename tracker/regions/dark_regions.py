@@ -7,8 +7,13 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import GreyImage, straight_pieces
-from tracker.regions.border_kernels import trace_borders
-from tracker.regions.region_kernels import find_runs, median_difference, region_quads, regions_of
+from tracker.regions.region_kernels import (
+    find_runs,
+    median_difference,
+    region_quads,
+    regions_of,
+    trace_borders,
+)
 
 Int32 = npt.NDArray[np.int32]
 

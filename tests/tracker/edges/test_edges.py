@@ -14,8 +14,8 @@ from tracker.edges import (
     joined_segments,
     segments_of,
 )
+from tracker.edges.edge_detection import MAX_THRESHOLD, MIN_THRESHOLD, SOBEL_GAIN
 from tracker.edges.edge_kernels import crossing
-from tracker.edges.gradient import MAX_THRESHOLD, MIN_THRESHOLD, SOBEL_GAIN
 
 FINE = 8
 SIDE_PX = 80

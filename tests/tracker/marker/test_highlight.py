@@ -5,8 +5,8 @@ import pytest
 
 from tracker.geometry import Array
 from tracker.marker.photometric_fit.grid_kernels import GRID_CELLS
-from tracker.marker.photometric_fit.highlight import highlight_in
 from tracker.marker.photometric_fit.illumination import grid, smooth_light
+from tracker.marker.photometric_fit.stepwise_illumination import highlight_in
 
 
 def _gaussian(middle: tuple[float, float], sds: tuple[float, float], rotation_deg: float) -> Array:

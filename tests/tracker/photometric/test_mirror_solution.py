@@ -12,9 +12,8 @@ from tests.benchmarks.scenes.rigs import RIGS
 from tests.tracker.scenes import Print, camera_of, code_model, facing_at_px, rendered
 from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
 from tracker.photometric import textures_of
-from tracker.photometric.fit import FitResult, fit_pose
+from tracker.photometric.fit import FitResult, fit_pose, with_mirror_solution
 from tracker.photometric.illumination_kernels import PLANAR
-from tracker.photometric.mirror_solution import with_mirror_solution
 from tracker.photometric.samples import Samples, sample_pixels
 from tracker.pose import flipped_pose
 

@@ -6,10 +6,9 @@ these can reduce the residuals.
 
 from tracker.marker.photometric_fit.acceptance import PhotometricFit
 from tracker.marker.photometric_fit.estimator import local_ncc_at
-from tracker.marker.photometric_fit.saturation import matches_under_saturation
 from tracker.marker.photometric_fit.scale_space import ScaleSpace, scale_space_of
 from tracker.marker.photometric_fit.shape_mismatch import ShapeMismatch, shape_mismatch_of
-from tracker.marker.photometric_fit.verification import photometric_fit_of
+from tracker.marker.photometric_fit.verification import matches_under_saturation, photometric_fit_of
 
 __all__ = [
     "PhotometricFit",

@@ -33,6 +33,8 @@ NEIGHBOURHOOD_CELLS, PICTURE_GREY = 4, 100.0
 SQUARE = np.s_[RING:-RING, RING:-RING]
 MIN_SD_GREY, MIN_SD_RATIO = 6.0, 0.1
 UNIT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+# Half width, in half sides, of the area inside the border where another marker may have its shape.
+OTHERS_HALF = 0.8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,7 +62,7 @@ class Estimator:
     def __init__(self, image: GreyImage, pictures: ScaleSpace, corners_px: Array, side_px: float) -> None:
         self.image, self.pictures = image, pictures
         self.side_px = side_px
-        self.cell_px = cell_px_of(side_px)
+        self.cell_px = max(side_px, MIN_SIDE_PX) / SQUARE_CELLS
         self.to_px = np.empty(8)
         square_to_quad(np.ascontiguousarray(corners_px, dtype=np.float64), self.to_px)
         self.corners: Array = UNIT.copy()
@@ -190,13 +192,26 @@ def local_ncc_at(image: GreyImage, pictures: ScaleSpace, corners_px: Array, *, s
     return Estimator(image, pictures, corners_px, side_px).local_ncc()
 
 
-def cell_px_of(side_px: float) -> float:
-    """Return the width of a grid cell in px."""
-    return max(side_px, MIN_SIDE_PX) / SQUARE_CELLS
-
-
 @cache
 def inside_square() -> Mask:
     """Return the mask of cells inside the outline."""
     u, v = grid()
     return np.asarray(np.maximum(np.abs(u), np.abs(v)) < 1.0)
+
+
+def shape_mask(picture: npt.NDArray[np.float32]) -> Mask:
+    """Return the bounding mask of the bright shape within the outline."""
+    u, v = grid()
+    bright = (picture > 0.5) & (np.maximum(np.abs(u), np.abs(v)) < 0.85)
+    rows, columns = np.nonzero(bright)
+    if len(rows) == 0:
+        return inside_square()
+    out = np.zeros_like(bright)
+    out[max(rows.min() - 1, 0) : rows.max() + 2, max(columns.min() - 1, 0) : columns.max() + 2] = True
+    return np.asarray(out & inside_square())
+
+
+def any_shape_mask(picture: npt.NDArray[np.float32]) -> Mask:
+    """Return the mask of this model's shape and of the area where another marker may have its shape."""
+    u, v = grid()
+    return np.asarray(shape_mask(picture) | (np.maximum(np.abs(u), np.abs(v)) < OTHERS_HALF))

@@ -4,7 +4,7 @@ import numpy as np
 
 from tracker.camera.blur_kernels import clamp_blur
 from tracker.compiled import compiled
-from tracker.geometry.geometry_kernels import solve_positive
+from tracker.geometry.geometry_kernels import median, solve_positive
 from tracker.marker.model import PAPER_RATIO
 from tracker.marker.photometric_fit.grid_kernels import (
     GRID_CELLS,
@@ -61,7 +61,8 @@ def _equations(values, rendered, offset_basis, gain_basis, gain, weight, free, a
             for p in range(size):
                 g[p] += wr * row[p]
         if many == 4 or (i == GRID_CELLS * GRID_CELLS - 1 and many > 0):
-            weights[many:] = 0.0
+            for k in range(many, 4):
+                weights[k] = 0.0
             r0, r1, r2, r3 = rows[0], rows[1], rows[2], rows[3]
             for p in range(size):
                 w0, w1 = weights[0] * r0[p], weights[1] * r1[p]
@@ -96,8 +97,10 @@ def _step(corners, blur, step, cell_px):
     minimum = SAMPLING_VARIANCE + (MIN_BLUR_PX / cell_px) ** 2
     maximum = SAMPLING_VARIANCE + (MAX_BLUR_PX / cell_px) ** 2
     clamp_blur(blur, minimum, maximum)
-    changed = np.abs(blur - before).max() / wide
-    return far > CONVERGED_CELLS or changed > CONVERGED_BLUR
+    changed = 0.0
+    for k in range(3):
+        changed = max(changed, abs(blur[k] - before[k]))
+    return far > CONVERGED_CELLS or changed > CONVERGED_BLUR * wide
 
 
 @compiled
@@ -129,7 +132,7 @@ def _predict(
             if abs(u) < 1.0 and abs(v) < 1.0 and visible[r, c]:
                 inside[count] = high
                 count += 1
-    return np.median(inside[:count]) if count > 0 else 0.0
+    return median(inside, count) if count > 0 else 0.0
 
 
 @compiled

@@ -32,12 +32,21 @@ def cell_coordinate(c):
 
 
 @compiled
+def _centre(corners):
+    """Return the mean of four corners (4, 2)."""
+    return (
+        0.25 * (corners[0, 0] + corners[1, 0] + corners[2, 0] + corners[3, 0]),
+        0.25 * (corners[0, 1] + corners[1, 1] + corners[2, 1] + corners[3, 1]),
+    )
+
+
+@compiled
 def sample_cells(image, h, corners, out):
     """Sample the cells of a square and its paper into `out` (GRID_CELLS, GRID_CELLS).
 
     Its corners (4, 2) are in the unit square of the homography h (8,).
     """
-    mu, mv = corners[:, 0].mean(), corners[:, 1].mean()
+    mu, mv = _centre(corners)
     px = np.empty((4, 2))
     for k in range(4):
         a = mu + (corners[k, 0] - mu) * (GRID_CELLS / SQUARE_CELLS)
@@ -52,7 +61,7 @@ def cells_per_px(h, corners, ahead):
 
     Its corners (4, 2) are in the unit square of the homography h (8,).
     """
-    a, b = corners[:, 0].mean(), corners[:, 1].mean()
+    a, b = _centre(corners)
     u, v = through(h, a, b)
     w = h[6] * a + h[7] * b + 1.0
     ua, ub, va, vb = (
@@ -61,10 +70,12 @@ def cells_per_px(h, corners, ahead):
         (h[3] - h[6] * v) / w,
         (h[4] - h[7] * v) / w,
     )
-    right = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3])
-    down = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1])
-    p, q = ua * right[0] + ub * right[1], ua * down[0] + ub * down[1]
-    r, t = va * right[0] + vb * right[1], va * down[0] + vb * down[1]
+    right_a = 0.5 * (corners[1, 0] - corners[0, 0] + corners[2, 0] - corners[3, 0])
+    right_b = 0.5 * (corners[1, 1] - corners[0, 1] + corners[2, 1] - corners[3, 1])
+    down_a = 0.5 * (corners[3, 0] - corners[0, 0] + corners[2, 0] - corners[1, 0])
+    down_b = 0.5 * (corners[3, 1] - corners[0, 1] + corners[2, 1] - corners[1, 1])
+    p, q = ua * right_a + ub * right_b, ua * down_a + ub * down_b
+    r, t = va * right_a + vb * right_b, va * down_a + vb * down_b
     unit = SQUARE_CELLS / (p * t - q * r)
     ahead[0, 0], ahead[0, 1], ahead[1, 0], ahead[1, 1] = unit * t, -unit * q, -unit * r, unit * p
 
@@ -72,8 +83,8 @@ def cells_per_px(h, corners, ahead):
 @compiled
 def lens_blur(ahead, blur_px, blur):
     """Write an isotropic image blur plus the sampling of a cell into `blur` (3,), in cells^2."""
-    even = np.array([blur_px * blur_px, blur_px * blur_px, 0.0])
-    blur[0], blur[1], blur[2] = mapped(ahead, even)
+    blur[0], blur[1], blur[2] = blur_px * blur_px, blur_px * blur_px, 0.0
+    blur[0], blur[1], blur[2] = mapped(ahead, blur)
     blur[0] += SAMPLING_VARIANCE
     blur[1] += SAMPLING_VARIANCE
 

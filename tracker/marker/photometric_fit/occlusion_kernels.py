@@ -4,29 +4,18 @@ import numpy as np
 
 from tracker.compiled import compiled
 from tracker.geometry.geometry_kernels import copy_vector, solve_positive
-from tracker.marker.photometric_fit.fit_kernels import SATURATED_GREY, correlation, solve
-from tracker.marker.photometric_fit.grid_kernels import (
-    GRID_CELLS,
-    RING,
-    SQUARE_CELLS,
-    cell_coordinate,
-    cells_per_px,
-    lens_blur,
-    render_model,
-    sample_cells,
-)
-from tracker.marker.sampling_kernels import square_to_quad
-
-# No literals, see `compiled`.
-ILLUMINATION_ONLY, ONE_ROUND = np.int64(0), np.int64(1)
-NO_RING, ANY_AREA = np.int64(0), np.int64(1)
+from tracker.marker.photometric_fit.fit_kernels import SATURATED_GREY
+from tracker.marker.photometric_fit.grid_kernels import GRID_CELLS, cell_coordinate
 
 
 @compiled
 def _smoothed(residual, contrast):
     """Return the residuals in units of the contrast, averaged over 3 x 3 cells."""
     n = len(residual)
-    off, out = residual / contrast, np.empty((n, n))
+    off, out = np.empty((n, n)), np.empty((n, n))
+    for r in range(n):
+        for c in range(n):
+            off[r, c] = residual[r, c] / contrast[r, c]
     for r in range(n):
         for c in range(n):
             total = 0.0
@@ -177,53 +166,3 @@ def half_plane_weights(observed, picture, angles, places, limit, weight):
             off /= limit * best[3]
             weight[r, c] = 1.0 / (1.0 + off * off) ** 2
     return True
-
-
-@compiled
-def shape_mismatch(image, corners_px, layers, blurs, blur_px, cell_px, offset_basis, inside, rounds, limit):
-    """Return the largest contradicting component in cells, the occluded fraction and the correlation.
-
-    The model `layers` of a `ScaleSpace` are blurred by `blur_px`, an sd. Only the `offset_basis`
-    (GRID_CELLS^2, n) and the contrast are fitted. `inside` (GRID_CELLS, GRID_CELLS): cells of the square.
-    Components over its border, off by more than `limit` of the contrast, are occluded. The correlation,
-    -1..1, is that of the rest; -1 where there is no contrast.
-    """
-    to_px, corners, blur_here = np.empty(8), np.zeros((4, 2)), np.empty(3)
-    square_to_quad(corners_px, to_px)
-    corners[1, 0] = corners[2, 0] = corners[2, 1] = corners[3, 1] = 1.0
-    observed = np.empty((GRID_CELLS, GRID_CELLS))
-    sample_cells(image, to_px, corners, observed)
-    rendered = np.empty((6, GRID_CELLS, GRID_CELLS), np.float32)
-    ahead = np.empty((2, 2))
-    cells_per_px(to_px, corners, ahead)
-    lens_blur(ahead, blur_px, blur_here)
-    render_model(layers, blurs, blur_here, ahead, rendered)
-    visible, even = inside.copy(), np.ones((GRID_CELLS * GRID_CELLS, 1))
-    reference_gain, weight = np.ones((GRID_CELLS, GRID_CELLS)), np.ones((GRID_CELLS, GRID_CELLS))
-    residual, lit = np.empty((GRID_CELLS, GRID_CELLS)), np.empty((GRID_CELLS, GRID_CELLS))
-    contrast = solve(
-        image, to_px, layers, blurs, corners, blur_here, reference_gain, visible, weight, offset_basis, even,
-        cell_px, rounds, ILLUMINATION_ONLY, observed, rendered, residual, lit,
-    )  # fmt: skip
-    if not contrast > 0.0:
-        return 0, 1.0, -1.0
-    labels, end = np.zeros((SQUARE_CELLS, SQUARE_CELLS), np.int64), RING + SQUARE_CELLS
-    own_rest, own_lit = residual[RING:end, RING:end].copy(), lit[RING:end, RING:end].copy()
-    areas = residual_components(own_rest, own_lit, NO_RING, limit, ANY_AREA, labels)
-    largest, occluded = 0, 0
-    for area in areas:
-        largest = max(largest, area)
-    for r in range(SQUARE_CELLS):
-        for c in range(SQUARE_CELLS):
-            if labels[r, c] == -1:
-                visible[RING + r, RING + c] = False
-            occluded += not visible[RING + r, RING + c]
-    weight[:, :] = 1.0
-    contrast = solve(
-        image, to_px, layers, blurs, corners, blur_here, reference_gain, visible, weight, offset_basis, even,
-        cell_px, ONE_ROUND, ILLUMINATION_ONLY, observed, rendered, residual, lit,
-    )  # fmt: skip
-    if not contrast > 0.0:
-        return largest, occluded / SQUARE_CELLS**2, -1.0
-    # Visible cells have equal weights, so this is a correlation.
-    return largest, occluded / SQUARE_CELLS**2, correlation(observed, residual, visible, offset_basis, 0.0)

@@ -15,11 +15,12 @@ import numpy as np
 
 from tracker.edges import GreyImage
 from tracker.geometry import Array
-from tracker.marker.photometric_fit.estimator import FIRST_BLUR_PX, cell_px_of, inside_square
+from tracker.marker.photometric_fit.estimator import SQUARE, Estimator, inside_square
+from tracker.marker.photometric_fit.fit_kernels import correlation
 from tracker.marker.photometric_fit.grid_kernels import SQUARE_CELLS
 from tracker.marker.photometric_fit.illumination import smooth_light
 from tracker.marker.photometric_fit.occlusion import MIN_AREA_RATIO
-from tracker.marker.photometric_fit.occlusion_kernels import shape_mismatch
+from tracker.marker.photometric_fit.occlusion_kernels import residual_components
 from tracker.marker.photometric_fit.scale_space import scale_space_of
 
 # An inverted part differs by one whole contrast; blur removes up to half of it.
@@ -61,22 +62,26 @@ def shape_mismatch_of(
 
     `corners_px` are pixels of `image`: top-left, top-right, bottom-right, bottom-left of the printed face.
     """
-    pictures = scale_space_of(square)
-    largest, find_occlusion, ncc = shape_mismatch(
-        image,
-        np.ascontiguousarray(corners_px, dtype=np.float64),
-        pictures.layers,
-        pictures.blurs_cells,
-        FIRST_BLUR_PX,
-        cell_px_of(side_px),
-        smooth_light(2),
-        inside_square(),
-        LIGHT_ROUNDS,
-        MISMATCH_CONTRAST,
-    )
+    min_correlation = float(np.interp(side_px, CORRELATION_SIDES_PX, MIN_CORRELATION))
+    fit = Estimator(image, scale_space_of(square), corners_px, side_px)
+    fit.gain_basis = smooth_light(0)
+    fit.visible = inside_square().copy()
+    fit.sample()
+    largest, occluded_ratio, ncc = 0, 1.0, -1.0
+    if fit.solve(LIGHT_ROUNDS, free=0):
+        labels = np.empty((SQUARE_CELLS, SQUARE_CELLS), np.int64)
+        areas = residual_components(
+            fit.residual[SQUARE].copy(), fit.gain[SQUARE].copy(), 0, MISMATCH_CONTRAST, 1, labels
+        )
+        largest = int(areas.max(initial=0))
+        fit.visible[SQUARE] = labels != -1
+        occluded_ratio = float(np.count_nonzero(labels == -1)) / SQUARE_CELLS**2
+        # Visible cells have equal weights, so this is a correlation.
+        if fit.solve(1, free=0):
+            ncc = correlation(fit.observed, fit.residual, fit.visible, fit.offset_basis, 0.0)
     return ShapeMismatch(
         inside_ratio=largest / SQUARE_CELLS**2,
-        occluded_ratio=find_occlusion,
+        occluded_ratio=occluded_ratio,
         correlation=ncc,
-        min_correlation=float(np.interp(side_px, CORRELATION_SIDES_PX, MIN_CORRELATION)),
+        min_correlation=min_correlation,
     )

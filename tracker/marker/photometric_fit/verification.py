@@ -1,10 +1,13 @@
 """Photometric verification of a square by blur, illumination and occlusion.
 
 Defocus, a shadow edge, a highlight or partial occlusion make the image differ from the printed model. Each
-has
-its own model: blur affects outline and inside equally; illumination is smooth and never negative; an occluder
-is one component that extends over the border. The residuals of the fit with these models discriminate better
-between the marker and other shapes.
+has its own model: blur affects outline and inside equally; illumination is smooth and never negative; an
+occluder is one component that extends over the border. The residuals of the fit with these models
+discriminate better between the marker and other shapes.
+
+Saturated cells neither confirm nor contradict the marker. A search must not accept such a square; tracking
+may accept it at the predicted pose if the remaining cells do not contradict the model
+(`matches_under_saturation`).
 """
 
 from dataclasses import replace
@@ -20,19 +23,23 @@ from tracker.marker.photometric_fit.acceptance import (
     NoiseCorrectedFit,
     PhotometricFit,
 )
-from tracker.marker.photometric_fit.estimator import UNIT, Estimator, inside_square
+from tracker.marker.photometric_fit.estimator import (
+    UNIT,
+    Estimator,
+    any_shape_mask,
+    inside_square,
+    shape_mask,
+)
 from tracker.marker.photometric_fit.fit_kernels import SATURATED_GREY, correlation
 from tracker.marker.photometric_fit.grid_kernels import GRID_CELLS, SAMPLING_VARIANCE, SQUARE_CELLS
 from tracker.marker.photometric_fit.illumination import contrasts, highlights, shadow_in, smooth_light
-from tracker.marker.photometric_fit.inverted_parts import max_inverted_ratio
+from tracker.marker.photometric_fit.inverted_parts import MAX_INVERTED_RATIO, max_inverted_ratio
 from tracker.marker.photometric_fit.occlusion import (
     Mask,
     find_occlusion,
     unoccluded_weights,
 )
-from tracker.marker.photometric_fit.saturation import MIN_SATURATED_RATIO
 from tracker.marker.photometric_fit.scale_space import scale_space_of
-from tracker.marker.photometric_fit.shape_masks import any_shape_mask, shape_mask
 from tracker.marker.photometric_fit.stepwise_illumination import fit_illumination
 from tracker.marker.photometric_fit.symmetry import rotation_is_ambiguous
 from tracker.marker.sampling_kernels import through
@@ -51,6 +58,11 @@ NONUNIFORM_ROUNDS = 6
 # is nearly accepted.
 MAX_ALTERNATIONS, FIRST_TESTED_ALTERNATION, MIN_ALTERNATION_CORRELATION = 3, 2, 0.85
 SD_OF_MEDIAN = 1.4826
+# A larger saturated part of the square is a highlight.
+MIN_SATURATED_RATIO = 0.02
+# These limits accept 1 % of other squares with as many of the marker's edges, and 90 % of washed-out markers.
+MIN_SATURATED_CORRELATION, MIN_SATURATED_LOCAL_NCC, MIN_SATURATED_SEEN_RATIO = 0.5, 0.5, 0.25
+SATURATED_ROUNDS = 4
 
 
 def photometric_fit_of(
@@ -196,3 +208,29 @@ def _blur_px(blur: Array, cell_px: float) -> tuple[float, float]:
     larger, smaller, _, _ = axes_of(blur[0], blur[1], blur[2])
     minimum, maximum = (float(np.sqrt(max(one - SAMPLING_VARIANCE, 0.0))) for one in (smaller, larger))
     return minimum * cell_px, maximum * cell_px
+
+
+def matches_under_saturation(
+    image: GreyImage, square: GreyImage, corners_px: Array, *, side_px: float
+) -> bool:
+    """Return whether saturation hides part of the model (n, n) and the visible rest agrees with it.
+
+    `corners_px` (4, 2): where it is compared. No visible part may be nearer to the inverted model.
+    """
+    fit = Estimator(image, scale_space_of(square), corners_px, side_px)
+    ncc = fit.local_ncc()
+    inside = inside_square()
+    is_saturated = float(np.mean(fit.observed[inside] >= SATURATED_GREY)) > MIN_SATURATED_RATIO
+    if not is_saturated or ncc < MIN_SATURATED_LOCAL_NCC:
+        return False
+    fit.offset_basis, fit.gain_basis = highlights(), contrasts()
+    if not fit.solve(SATURATED_ROUNDS):
+        return False
+    occluded, _ = find_occlusion(fit.residuals, blur_sd_cells=fit.blur_sd_cells)
+    informative, shape = fit.informative(~occluded), shape_mask(fit.picture)
+    return bool(
+        float(informative[shape].mean()) >= MIN_SATURATED_SEEN_RATIO
+        and correlation(fit.observed, fit.residual, informative & inside, fit.offset_basis, 0.0)
+        >= MIN_SATURATED_CORRELATION
+        and max_inverted_ratio(fit, informative, shape, 0.0) <= MAX_INVERTED_RATIO
+    )

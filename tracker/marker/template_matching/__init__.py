@@ -10,8 +10,7 @@ alignment a plain dark square correlates better; after alignment, the true quad 
 images. It takes 50 us per quad.
 """
 
-from tracker.marker.template_matching.match import coarse_match, template_match
-from tracker.marker.template_matching.refinement import STEPS, refine_quads
+from tracker.marker.template_matching.match import STEPS, coarse_match, refine_quads, template_match
 from tracker.marker.template_matching.templates import Template, Templates, templates_of
 
 __all__ = ["STEPS", "Template", "Templates", "coarse_match", "refine_quads", "template_match", "templates_of"]

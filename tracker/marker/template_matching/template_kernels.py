@@ -78,25 +78,6 @@ def products(rows, columns):
 
 
 @compiled
-def occluded_templates(pictures, occlusion_masks):
-    """Return masked templates as columns (n, p * c), with mean and sum of squares about it (p, c)."""
-    many, cells, count = len(pictures), pictures.shape[1], len(occlusion_masks)
-    columns = np.empty((cells, many * count), np.float32)
-    mean, spread = np.empty((many, count), np.float32), np.empty((many, count), np.float32)
-    for p in range(many):
-        for c in range(count):
-            total, square, size = 0.0, 0.0, 0.0
-            for i in range(cells):
-                value = pictures[p, i] * occlusion_masks[c, i]
-                columns[i, p * count + c] = value
-                total += value
-                square += value * value
-                size += occlusion_masks[c, i]
-            mean[p, c], spread[p, c] = total / size, max(square - total * total / size, 1e-9)
-    return columns, mean, spread
-
-
-@compiled
 def _compare(seen, columns, left, shared, sums, squares):
     """Compute the products of observed cells (n,) with the columns, and sums and squares under each mask."""
     # Contiguous inner loops, so that they vectorise.
@@ -133,54 +114,14 @@ def _best_match(seen, columns, mean, spread, left, sizes, shared, sums, squares)
 
 
 @compiled
-def _cholesky_factor(basis, mask, damping, stiffness, matrix):
-    """Compute the lower Cholesky factor of the damped normal matrix of the visible cells.
-
-    Deviations from a parallelogram are damped more (`stiffness`), because perspective causes only small ones.
-    Unlike `solve_positive` it needs no scaling, because damping makes the matrix positive and all but two
-    unknowns are in sides.
-    """
-    matrix[:] = 0.0
-    for i in range(len(basis)):
-        if mask[i] == 0.0:
-            continue
-        for j in range(UNKNOWNS):
-            value = basis[i, j]
-            for k in range(UNKNOWNS):
-                matrix[j, k] += value * basis[i, k]
-    for j in range(2, UNKNOWNS):
-        matrix[j, j] += damping
-        for k in range(2, UNKNOWNS):
-            # Corner signs alternate: one diagonal extends while the other contracts.
-            if (j - k) % 2 == 0:
-                matrix[j, k] += stiffness if (j - k) % 4 == 0 else -stiffness
-    for j in range(UNKNOWNS):
-        for k in range(j + 1):
-            total = matrix[j, k]
-            for i in range(k):
-                total -= matrix[j, i] * matrix[k, i]
-            if j == k:
-                matrix[j, j] = np.sqrt(max(total, np.float32(1e-9)))
-            else:
-                matrix[j, k] = total / matrix[k, k]
-
-
-@compiled
-def cholesky_factors(basis, occlusion_masks, damping, stiffness):
-    """Return the factors (p, c, 10, 10) of the damped normal matrices of each template under each mask."""
-    factors = np.empty((len(basis), len(occlusion_masks), UNKNOWNS, UNKNOWNS), np.float32)
-    for p in range(len(basis)):
-        for c in range(len(occlusion_masks)):
-            _cholesky_factor(basis[p], occlusion_masks[c], damping, stiffness, factors[p, c])
-    return factors
-
-
-@compiled
 def _add_parallelogram_prior(quad, weight, right):
     """Add the gradient of the prior for a parallelogram to the right-hand side."""
-    ax, ay = 0.5 * (quad[1] - quad[0] + quad[2] - quad[3])
-    bx, by = 0.5 * (quad[3] - quad[0] + quad[2] - quad[1])
-    x, y = quad[0] - quad[1] + quad[2] - quad[3]
+    ax = 0.5 * (quad[1, 0] - quad[0, 0] + quad[2, 0] - quad[3, 0])
+    ay = 0.5 * (quad[1, 1] - quad[0, 1] + quad[2, 1] - quad[3, 1])
+    bx = 0.5 * (quad[3, 0] - quad[0, 0] + quad[2, 0] - quad[1, 0])
+    by = 0.5 * (quad[3, 1] - quad[0, 1] + quad[2, 1] - quad[1, 1])
+    x = quad[0, 0] - quad[1, 0] + quad[2, 0] - quad[3, 0]
+    y = quad[0, 1] - quad[1, 1] + quad[2, 1] - quad[3, 1]
     det = ax * by - ay * bx
     along, down = weight * (x * by - y * bx) / det, weight * (ax * y - ay * x) / det
     for k in range(4):
@@ -211,13 +152,17 @@ def _copy_quad(quad, out):
 
 
 @compiled
-def _move_corners(quad, off):
-    """Move each corner, in place, by its offset (8,), in sides of the square's plane."""
+def _move_corners(quad, solved):
+    """Move each corner, in place, by its offset in sides of the square's plane.
+
+    `solved` (10,): gain, constant, and the offsets times the gain.
+    """
     h, moved = np.empty(8), np.empty((4, 2))
     square_to_quad(quad, h)
     for k in range(4):
-        a = (1.0 if k in (1, 2) else 0.0) - min(max(off[2 * k], -MAX_STEP_SIDES), MAX_STEP_SIDES)
-        b = (1.0 if k > 1 else 0.0) - min(max(off[2 * k + 1], -MAX_STEP_SIDES), MAX_STEP_SIDES)
+        right, down = solved[2 + 2 * k] / solved[0], solved[3 + 2 * k] / solved[0]
+        a = (1.0 if k in (1, 2) else 0.0) - min(max(right, -MAX_STEP_SIDES), MAX_STEP_SIDES)
+        b = (1.0 if k > 1 else 0.0) - min(max(down, -MAX_STEP_SIDES), MAX_STEP_SIDES)
         moved[k, 0], moved[k, 1] = through(h, a, b)
     for k in range(4):
         quad[k, 0], quad[k, 1] = moved[k, 0], moved[k, 1]
@@ -233,6 +178,8 @@ def align_to_templates(
     mean,
     spread,
     occlusion_masks,
+    visible,
+    visible_count,
     steps,
     stiffness,
     cells,
@@ -244,10 +191,9 @@ def align_to_templates(
     """Align quads (q, 4, 2) with one of the templates; return them and their correlation (q,).
 
     Gauss-Newton steps (Lucas-Kanade alignment): the observed cells are modelled as gain times template plus
-    its derivatives by the corners.
+    its derivatives by the corners. `visible` (n, c): the transposed occlusion masks, and `visible_count` (c,)
+    their sums.
     """
-    left = np.ascontiguousarray(occlusion_masks.T)
-    sizes = left.sum(axis=0)
     shared = np.empty(columns.shape[1], np.float32)
     sums, squares = np.empty(len(occlusion_masks), np.float32), np.empty(len(occlusion_masks), np.float32)
     found, correlation = quads.copy(), np.zeros(len(quads), np.float32)
@@ -260,7 +206,9 @@ def align_to_templates(
             seen = sample_quads(image, quad, cells, ring)
             normalise_locally(seen, cells + 2 * ring, around, floor_grey, floor_ratio)
             if step % SELECT_EVERY == 0 or step == steps:
-                ncc, p, c = _best_match(seen[0], columns, mean, spread, left, sizes, shared, sums, squares)
+                ncc, p, c = _best_match(
+                    seen[0], columns, mean, spread, visible, visible_count, shared, sums, squares
+                )
                 # A quad that already fits is not moved, because the templates are coarser than the image.
                 if step == 0:
                     worst = MAX_RESIDUAL_RATIO * (1.0 - ncc * ncc)
@@ -280,8 +228,17 @@ def align_to_templates(
             _solve(factors[picture, mask], right)
             if right[0] < MIN_GAIN:
                 break
-            _move_corners(quad[0], right[2:] / right[0])
+            _move_corners(quad[0], right)
     return found, correlation
+
+
+@compiled
+def _max_distance(one, other):
+    """Return the largest distance of a corner of two quads (4, 2) along u or v."""
+    farthest = np.float32(0.0)
+    for k in range(4):
+        farthest = max(farthest, abs(one[k, 0] - other[k, 0]), abs(one[k, 1] - other[k, 1]))
+    return farthest
 
 
 @compiled
@@ -294,14 +251,15 @@ def distinct(quads, correlation, order, known, maximum, minimum, same_ratio):
             break
         side = 0.0
         for k in range(3):
-            side += np.sqrt(((quads[i, k + 1] - quads[i, k]) ** 2).sum()) / 3.0
+            u, v = quads[i, k + 1, 0] - quads[i, k, 0], quads[i, k + 1, 1] - quads[i, k, 1]
+            side += np.sqrt(u * u + v * v) / 3.0
         # Rotated quads differ.
         same = max(same_ratio * side, 1.0)
         fresh = True
         for j in range(len(known)):
-            fresh = fresh and np.abs(quads[i] - known[j]).max() > same
+            fresh = fresh and _max_distance(quads[i], known[j]) > same
         for j in range(n):
-            fresh = fresh and np.abs(quads[i] - quads[selected[j]]).max() > same
+            fresh = fresh and _max_distance(quads[i], quads[selected[j]]) > same
         if fresh:
             selected[n] = i
             n += 1

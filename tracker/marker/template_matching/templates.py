@@ -12,7 +12,6 @@ from tracker.geometry import Array
 from tracker.marker.model import MarkerModel
 from tracker.marker.photometric_fit import ScaleSpace, scale_space_of
 from tracker.marker.sampling_kernels import normalise_locally
-from tracker.marker.template_matching.template_kernels import cholesky_factors, occluded_templates
 
 Float32 = npt.NDArray[np.float32]
 
@@ -118,7 +117,7 @@ def _template_of(pixels: bytes, side: int) -> Template:
         ),
         upright=_occluded(upright),
         basis=basis,
-        factors=cholesky_factors(basis, OCCLUSION_MASKS, DAMPING, STIFFNESS),
+        factors=_cholesky_factors(basis),
         pictures=scale_space_of(square),
     )
 
@@ -171,8 +170,29 @@ def _basis(wide: Array, seen: Float32) -> Float32:
 
 
 def _occluded(pictures: Float32) -> OccludedTemplates:
-    columns, mean, spread = occluded_templates(np.ascontiguousarray(pictures, np.float32), OCCLUSION_MASKS)
-    return OccludedTemplates(columns=columns, mean=mean, spread=spread)
+    """Return the templates (p, n) under each mask (c)."""
+    columns = pictures[:, None] * OCCLUSION_MASKS
+    total, squares = columns.sum(axis=2), (columns**2).sum(axis=2)
+    return OccludedTemplates(
+        columns=np.ascontiguousarray(columns.reshape(-1, pictures.shape[1]).T, np.float32),
+        mean=np.asarray(total / VISIBLE_COUNT, np.float32),
+        spread=np.asarray(np.maximum(squares - total**2 / VISIBLE_COUNT, 1e-9), np.float32),
+    )
+
+
+def _cholesky_factors(basis: Float32) -> Float32:
+    """Return the factors (p, c, 10, 10) of the damped normal matrices of each basis under each mask.
+
+    Deviations from a parallelogram are damped more, because perspective causes only small ones: their signs
+    alternate from corner to corner, as one diagonal extends while the other contracts.
+    """
+    matrices = np.einsum("pij,ci,pik->pcjk", basis, OCCLUSION_MASKS, basis, dtype=np.float64, optimize=True)
+    alternating = np.tile([1.0, 1.0, -1.0, -1.0], 2)
+    same_axis = np.equal.outer(np.arange(8) % 2, np.arange(8) % 2)
+    # Regularises a template without any visible shape.
+    matrices += 1e-9 * np.eye(10)
+    matrices[..., 2:, 2:] += DAMPING * np.eye(8) + STIFFNESS * same_axis * np.outer(alternating, alternating)
+    return np.asarray(np.linalg.cholesky(matrices), np.float32)
 
 
 def _motion_blurred_picture(upright: Float32, rotation: int) -> Float32:
@@ -204,3 +224,6 @@ def _occlusion_masks() -> Float32:
 
 
 OCCLUSION_MASKS = _occlusion_masks()
+# The same by cell (n, c), and the number of visible cells under each mask (c,).
+VISIBLE_CELLS = np.ascontiguousarray(OCCLUSION_MASKS.T)
+VISIBLE_COUNT = OCCLUSION_MASKS.sum(axis=1)
