@@ -39,6 +39,8 @@ export const auditDe: AuditTexts = {
     "POST /api/cases/{case_id}/close": "Hat einen Fall geschlossen",
     "POST /api/cases/{case_id}/deletion": "Hat einen Fall gelöscht",
     "POST /api/cases/{case_id}/documents/{document_id}/withdrawal": "Hat ein Dokument zurückgezogen",
+    "POST /api/cases/{case_id}/documents/{document_id}/restoration":
+      "Hat ein beschädigtes Dokument durch eine ältere Version ersetzt",
     "POST /api/cases/{case_id}/verification": "Hat die Dateien eines Falls prüfen lassen",
     "DELETE /api/jobs/{job_id}": "Hat einen Vorgang abgebrochen",
     "POST /api/camera/collection": "Hat begonnen, Ansichten der Tafel zu sammeln",

@@ -38,6 +38,8 @@ export const auditEn = {
     "POST /api/cases/{case_id}/close": "Closed a case",
     "POST /api/cases/{case_id}/deletion": "Deleted a case",
     "POST /api/cases/{case_id}/documents/{document_id}/withdrawal": "Withdrew a document",
+    "POST /api/cases/{case_id}/documents/{document_id}/restoration":
+      "Replaced a damaged document by an older version",
     "POST /api/cases/{case_id}/verification": "Verified the files of a case",
     "DELETE /api/jobs/{job_id}": "Cancelled a task",
     "POST /api/camera/collection": "Began to collect views of the board",
