@@ -35,6 +35,24 @@ class SteadyClock:
         return self._began_at + timedelta(seconds=self._elapsed_s() - self._began_s)
 
 
+class AgeClock:
+    """The monotonic clock of images, plus the sleep of the computer since this was made.
+
+    A check on anatomy is not younger because the computer slept after it. One that was made after the sleep
+    looks older than it is, which asks for another one early.
+    """
+
+    def __init__(
+        self, *, images_s: Callable[[], float] = time.monotonic, elapsed_s: Callable[[], float] = elapsed_s
+    ) -> None:
+        self._elapsed_s = elapsed_s
+        self._ahead_s = elapsed_s() - images_s()
+
+    def __call__(self) -> float:
+        """Return the present time in seconds; without sleep, that of the image clock."""
+        return self._elapsed_s() - self._ahead_s
+
+
 def utc_text(at: datetime, *, timespec: Literal["seconds", "milliseconds"] = "milliseconds") -> str:
     """Format a time as UTC in ISO 8601 with the suffix Z."""
     return at.astimezone(UTC).isoformat(timespec=timespec).replace("+00:00", "Z")

@@ -9,13 +9,14 @@ import math
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import structlog
 
 from server.alarms import ProcedureFacts
 from server.camera_file import CameraFile
 from server.camera_remarks import warn_of_doubtful_camera
+from server.clock import AgeClock
 from server.procedure.camera import MAIN_CAMERA, camera_from_document
 from server.procedure.confirmation import confirmation_name
 from server.procedure.drill_reference import DrillReferenceBuilder
@@ -52,13 +53,13 @@ class TrackingLink:
         publish_setup: sends the setup of the open case to the tracking process.
         publish_facts: sends the facts of the procedure to the alarms.
         tracked_from_s: returns the start of the current tracking process, on the image clock.
-        image_clock: returns the present time on the image clock, which is monotonic.
+        age_clock: returns the present time on the image clock, plus the computer's sleep.
     """
 
     publish_setup: Callable[[CaseSetup], None]
     publish_facts: Callable[[ProcedureFacts], None] = lambda _: None
     tracked_from_s: Callable[[], float] = lambda: -math.inf
-    image_clock: Callable[[], float] = time.monotonic
+    age_clock: Callable[[], float] = field(default_factory=AgeClock)
 
 
 class SetupPublisher:

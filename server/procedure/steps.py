@@ -213,7 +213,7 @@ def _procedure(
         run=new_run(),
         cosign=config.supervision.cosign,
         tracked_from_s=tracking.tracked_from_s,
-        seconds=tracking.image_clock,
+        seconds=tracking.age_clock,
     )
 
 

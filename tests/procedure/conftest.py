@@ -152,7 +152,7 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
             tracking=TrackingLink(
                 publish_setup=adopted.append,
                 tracked_from_s=lambda: tracked_from_s[-1],
-                image_clock=lambda: _captured_at_s(hub),
+                age_clock=lambda: _captured_at_s(hub),
             ),
         )
         recordings = recordings_without_process(store, config)

@@ -4,7 +4,7 @@ import json
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from server.clock import SteadyClock, elapsed_s
+from server.clock import AgeClock, SteadyClock, elapsed_s
 from server.security import AuditLog, PeopleService, Role
 from server.security.audit import Entry
 from server.security.people.service import NewInvitation
@@ -35,6 +35,15 @@ def test_a_steady_clock_advances_by_elapsed_time_alone() -> None:
     computer.wall += timedelta(days=400)
     assert steady() == datetime(2026, 11, 21, 8, 5, tzinfo=UTC)
     assert elapsed_s() <= elapsed_s()
+
+
+def test_the_clock_of_ages_is_that_of_images_and_counts_sleep() -> None:
+    computer = ComputerClock()
+    awake_s = 7.0
+    ages = AgeClock(images_s=lambda: awake_s, elapsed_s=lambda: computer.elapsed_s)
+    assert ages() == awake_s
+    computer.passes(timedelta(hours=2))
+    assert ages() == awake_s + 7200.0
 
 
 def test_a_session_lasts_its_hours_while_the_clock_is_set(tmp_path: Path) -> None:
