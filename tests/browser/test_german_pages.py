@@ -110,20 +110,17 @@ def test_no_state_of_a_german_page_has_a_decimal_point(
 ) -> None:
     found, commas = [], 0
     with make() as stage, ExitStack() as open_contexts:
-        # A page of each person, because a new one takes as long as a state.
-        pages: dict[str, Page] = {}
+        # A page for the states of a person, because a new one takes as long as a state.
+        pages: dict[tuple[str, bool], Page] = {}
         for state in states:
-            if state.person not in pages:
-                pages[state.person] = open_contexts.enter_context(
-                    german(browser, stage, state.person)
-                ).new_page()
-            page = pages[state.person]
-            if state.is_unconfirmed:
-                page.route("**/api/procedure", answer_unconfirmed)
-            texts = read(page, stage, state)
-            page.unroute_all()
+            key = (state.person, state.is_unconfirmed)
+            if key not in pages:
+                pages[key] = open_contexts.enter_context(german(browser, stage, state.person)).new_page()
+                if state.is_unconfirmed:
+                    pages[key].route("**/api/procedure", answer_unconfirmed)
+            texts = read(pages[key], stage, state)
             # Shows and requests nothing while another page is read.
-            page.goto("about:blank")
+            pages[key].goto("about:blank")
             found += [(state.name, text) for text in with_points(texts)]
             commas += sum(bool(DECIMAL_COMMA.search(text)) for text in texts)
     assert found == []

@@ -142,7 +142,9 @@ class Receiver:
     def stop(self) -> None:
         """End all connections, and close the socket."""
         for association in self._entity.active_associations:
-            association.abort()
+            # One that was rejected waits for the sender to close it, and cannot be aborted.
+            if association.is_established:
+                association.abort()
         self._server.shutdown()
 
     def describe_quiet_series(self) -> None:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import pydicom
 from pydicom.uid import ExplicitVRLittleEndian
-from pynetdicom import AE
+from pynetdicom import AE, evt
 from pynetdicom.association import Association
+from pynetdicom.pdu import A_ASSOCIATE_RJ
 
 from server.config import DicomConfig
 from server.imaging.dicom.header import without_warnings
@@ -57,14 +58,23 @@ def send_objects(objects: Sequence[PlanObject], settings: DicomConfig) -> tuple[
     entity.connection_timeout = TIMEOUT_S
     for uid in sorted({one.sop_class_uid for one in objects}):
         entity.add_requested_context(uid, ExplicitVRLittleEndian)
+    rejections: list[A_ASSOCIATE_RJ] = []
+
+    def note(event: evt.Event) -> None:
+        # An archive that closes the connection at once looks to `associate` like one that cannot be reached.
+        if isinstance(event.pdu, A_ASSOCIATE_RJ):
+            rejections.append(event.pdu)
+
     association = entity.associate(
         archive.host,
         archive.port,
         ae_title=archive.ae_title,
         tls_args=(_tls_context(settings), archive.host) if archive.tls else None,
+        evt_handlers=[(evt.EVT_PDU_RECV, note)],
     )
     if not association.is_established:
-        raise _not_established(association, settings)
+        is_rejected = bool(rejections or association.rejected_contexts)
+        raise _not_established(settings, is_rejected=is_rejected)
     try:
         return tuple(_sent(association, one) for one in objects)
     finally:
@@ -107,10 +117,10 @@ def _tls_context(settings: DicomConfig) -> ssl.SSLContext:
         ) from None
 
 
-def _not_established(association: Association, settings: DicomConfig) -> ArchiveError:
+def _not_established(settings: DicomConfig, *, is_rejected: bool) -> ArchiveError:
     archive = settings.archive
     place = {"host": archive.host, "port": archive.port, "ae_title": archive.ae_title}
-    if association.is_rejected or association.rejected_contexts:
+    if is_rejected:
         return ArchiveError(
             "ARCHIVE_REJECTED",
             f"the archive {archive.ae_title} at {archive.host}:{archive.port} rejects the connection of "

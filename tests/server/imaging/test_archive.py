@@ -7,6 +7,7 @@ from pathlib import Path
 import pydicom
 import pytest
 from pynetdicom import AE, evt
+from pynetdicom.acse import ACSE
 from pynetdicom.sop_class import EncapsulatedSTLStorage  # pyrefly: ignore[missing-module-attribute]  made at its import
 
 from server.config import DicomArchiveConfig, DicomConfig
@@ -14,6 +15,7 @@ from server.imaging.dicom_network.sender import ArchiveError, send_objects
 from server.imaging.dicom_objects import PlanObject, plan_objects
 from server.security.tls.self_signed import load_or_create
 from tests.dicom_tools import Orthanc, closed_sockets, free_port, orthanc_in  # noqa: F401  a fixture
+from tests.server.dicom_receiver.sending import until
 from tests.server.imaging.made_study import PATIENT, STUDY, labels_of, made_study, source_of
 from tests.tracker.plan.test_plan_document import document
 
@@ -61,6 +63,22 @@ def test_objects_are_in_the_study_of_their_ct(
 
 def test_a_wrong_title_is_told(orthanc: Orthanc, objects: tuple[PlanObject, ...]) -> None:
     with pytest.raises(ArchiveError, match="rejects the connection of COAXIAL") as raised:
+        send_objects(objects, settings_for(orthanc.port, title="ANOTHER"))
+    assert raised.value.code == "ARCHIVE_REJECTED"
+
+
+def test_a_rejection_that_comes_before_somebody_waits_for_it_is_told(
+    orthanc: Orthanc, objects: tuple[PlanObject, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    request = ACSE.send_request
+
+    def slowly(acse: ACSE) -> None:
+        request(acse)
+        # The archive has closed the connection, which looks like one that was never made.
+        until(lambda: not (acse.dul.to_user_queue.empty() or acse.dul.socket._is_connected))
+
+    monkeypatch.setattr(ACSE, "send_request", slowly)
+    with pytest.raises(ArchiveError) as raised:
         send_objects(objects, settings_for(orthanc.port, title="ANOTHER"))
     assert raised.value.code == "ARCHIVE_REJECTED"
 
