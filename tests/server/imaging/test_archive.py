@@ -75,7 +75,9 @@ def test_a_rejection_that_comes_before_somebody_waits_for_it_is_told(
     def slowly(acse: ACSE) -> None:
         request(acse)
         # The archive has closed the connection, which looks like one that was never made.
-        until(lambda: not (acse.dul.to_user_queue.empty() or acse.dul.socket._is_connected))
+        assert acse.dul.socket is not None
+        made = acse.dul.socket
+        until(lambda: not (acse.dul.to_user_queue.empty() or made._is_connected))
 
     monkeypatch.setattr(ACSE, "send_request", slowly)
     with pytest.raises(ArchiveError) as raised:
