@@ -174,6 +174,19 @@ def test_nothing_of_the_supervisors_page_lies_outside_its_screen(
     save_screenshot(page, f"supervisor-{width}", is_full_page=True)
 
 
+def test_the_header_of_a_signed_in_operator_fits_with_the_tour_of_a_rehearsal(
+    supervised: Supervised, watch: Callable[..., WatchedPage]
+) -> None:
+    page = opened(watch, supervised, "o1", "supervisor?lang=de", (1366, 820))
+    # This server has a camera, and its pages no tour.
+    page.get_by_test_id("help").evaluate(
+        "help => help.insertAdjacentHTML('afterend', '<button class=help-button>Rundgang</button>')"
+    )
+    for width in (1366, 1280, 1180, 1024, 820):
+        page.set_viewport_size({"width": width, "height": 820})
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
 @pytest.mark.parametrize(("width", "height"), [(1366, 768), (390, 844)])
 def test_hold_marks_and_signatures_are_on_the_first_screen(
     supervised: Supervised, watch: Callable[..., WatchedPage], width: int, height: int
