@@ -114,7 +114,8 @@ class Receiver:
         self._released: dict[str, float] = {}
         self._prepared_s = -math.inf
         inbox.clear_incoming()
-        # Slices are written to the disk while they arrive.
+        # Slices are written to the disk while they arrive. The setting is the process's, until `stop`.
+        self._former_tempdir = tempfile.tempdir
         tempfile.tempdir = str(inbox.incoming)
         _config.STORE_RECV_CHUNKED_DATASET = True
         _config.LOG_HANDLER_LEVEL = "none"
@@ -146,6 +147,7 @@ class Receiver:
             if association.is_established:
                 association.abort()
         self._server.shutdown()
+        tempfile.tempdir = self._former_tempdir
 
     def describe_quiet_series(self) -> None:
         """Describe series to which nothing was added for a moment; call it again and again.

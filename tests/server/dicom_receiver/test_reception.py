@@ -6,6 +6,7 @@ import shutil
 import socket
 import ssl
 import struct
+import tempfile
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -57,6 +58,13 @@ def test_it_answers_an_echo(tmp_path: Path) -> None:
         association = associated(opened.port)
         assert association.send_c_echo().Status == SUCCESS
         association.release()
+
+
+def test_temporary_files_are_in_the_inbox_only_while_it_receives(tmp_path: Path) -> None:
+    before = tempfile.gettempdir()
+    with door(tmp_path):
+        assert Path(tempfile.gettempdir()).is_relative_to(tmp_path)
+    assert tempfile.gettempdir() == before
 
 
 @pytest.mark.parametrize(("title", "called"), [("STRANGER", "COAXIAL"), ("SCANNER", "OTHER")])
