@@ -32,7 +32,7 @@ def check_finding(
         run: name of this run of the server.
         again_after_min: age from which a check is due.
         now: the time, in UTC.
-        now_s: the time on the image clock of this run.
+        now_s: the time on the image clock of this run, plus the computer's sleep.
     """
     is_loose = registration.anchored_to is AnchoredTo.CAMERA
     if check is None:
@@ -45,9 +45,8 @@ def check_finding(
         return Finding(state=StepState.MISSING, reason=reason_of_error(error))
     if record.passed and is_loose and record.run != run:
         return _after_start(registration.vertebra, check.id)
-    # In this run not by the wall clock, which can be set: set back, it would make a due check young again.
-    since_image_min = (now_s - record.from_s) / 60.0
-    minutes = since_image_min if record.run == run else minutes_since(check.made_at, now)
+    from_s = record.from_s if record.run == run else None
+    minutes = age_min(check, from_s=from_s, now=now, now_s=now_s)
     return _of(record, check, again_after_min=again_after_min, minutes=minutes)
 
 
@@ -78,7 +77,20 @@ def _after_start(vertebra: str, document_id: str) -> Finding:
     )
 
 
-def minutes_since(made_at: str, now: datetime) -> float:
-    """Return the age of a document in minutes; negative if the clock was set back."""
-    made = datetime.fromisoformat(made_at.replace("Z", "+00:00"))
+def age_min(document: Document, *, from_s: float | None, now: datetime, now_s: float) -> float:
+    """Return the age of a document in minutes.
+
+    In this run not by the wall clock, which can be set: set back, it would make a due check young again. The
+    age of a document of an earlier run is negative if the clock was set back.
+
+    Args:
+        document: the document.
+        from_s: the time of its images on the image clock; None if it was made in another run or without
+            images.
+        now: the time, in UTC.
+        now_s: the time on the image clock of this run, plus the computer's sleep.
+    """
+    if from_s is not None:
+        return (now_s - from_s) / 60.0
+    made = datetime.fromisoformat(document.made_at.replace("Z", "+00:00"))
     return (now.astimezone(UTC) - made).total_seconds() / 60.0

@@ -25,7 +25,7 @@ from server.procedure.registration_record import (
     check_name,
     registration_from_document,
 )
-from server.procedure.state.check_finding import check_finding, minutes_since
+from server.procedure.state.check_finding import age_min, check_finding
 from server.procedure.state.cosignatures import missing_cosignatures
 from server.procedure.state.procedure_state import ProcedureState, derive_state, no_case
 from server.procedure.state.records import Finding, StepName, StepState
@@ -68,7 +68,7 @@ class Procedure:
         tracked_from_s: start of the current tracking process, on the image clock.
         cosign: which documents require a co-signature.
         clock: the wall clock, in UTC.
-        seconds: the image clock, which is monotonic.
+        seconds: the image clock, plus the computer's sleep.
     """
 
     def __init__(
@@ -261,10 +261,11 @@ class Procedure:
         numbers = {
             "method": record.method.value,
             "anchored_to": record.anchored_to.value,
-            "age_min": (
-                minutes_since(found.made_at, self._clock())
-                if record.from_s is None or record.run != self.run
-                else (self._seconds() - record.from_s) / 60.0
+            "age_min": age_min(
+                found,
+                from_s=record.from_s if record.run == self.run else None,
+                now=self._clock(),
+                now_s=self._seconds(),
             ),
             **record.numbers,
         }
