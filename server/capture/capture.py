@@ -6,11 +6,10 @@ from collections import deque
 from dataclasses import replace
 
 import cv2
-import numpy as np
 import structlog
 
 from server.capture.frozen_image import FrozenImageDetector
-from server.capture.shot import Shot, Source
+from server.capture.shot import Shot, Source, is_bgr
 from server.errors import CaptureError
 from server.live import CameraStatus, Problem, SourceState, SourceStatus
 from server.priority import lower_thread_priority
@@ -179,7 +178,7 @@ class Capture:
                 "Check the cable, and set the camera to MJPEG or YUYV; it is retried automatically.",
                 {"source": self._source.name, "library_error": error.err},
             ) from error
-        if shot is not None and not _has_pixels(shot.image):
+        if shot is not None and not is_bgr(shot.image):
             given = f"{shot.image.dtype} {shot.image.shape}"
             raise CaptureError(
                 "IMAGE_FORMAT_INVALID",
@@ -298,10 +297,6 @@ class Capture:
         if sentence != self._last_logged:
             self._last_logged = sentence
             log.warning(error.message, code=error.code, remedy=error.remedy)
-
-
-def _has_pixels(image: np.ndarray) -> bool:
-    return image.dtype == np.uint8 and image.ndim == 3 and image.shape[2] == 3 and image.size > 0
 
 
 def _rate_hz(times: list[float]) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from server.capture.address import SourceAddress
-from server.capture.shot import Shot
+from server.capture.shot import Shot, is_bgr
 from server.errors import CaptureError
 from server.live import CameraStatus, ImageClock
 from server.plugins import IMAGE_SOURCES, PluginError, load_plugin
@@ -73,10 +73,8 @@ class PluginSource:
 
     def _checked_image(self, image: object) -> npt.NDArray[np.uint8]:
         """Return a copy of the image, because the plug-in may write the next one into the same array."""
-        if isinstance(image, np.ndarray) and image.dtype == np.uint8 and image.ndim == 3:
-            height, width, channels = image.shape
-            if height > 0 and width > 0 and channels == 3:
-                return np.array(image, order="C")
+        if isinstance(image, np.ndarray) and is_bgr(image):
+            return np.array(image, order="C")
         given = f"{image.dtype} {image.shape}" if isinstance(image, np.ndarray) else type(image).__name__
         raise self._invalid(
             "PLUGIN_IMAGE_INVALID", f"an image that is {given}, allowed: uint8 (height, width, 3)"

@@ -10,6 +10,11 @@ from server.errors import CaptureError
 from server.live import CameraStatus
 
 
+def is_bgr(image: np.ndarray) -> bool:
+    """Return whether an array is an image of three 8-bit channels (h, w, 3), and not empty."""
+    return image.dtype == np.uint8 and image.ndim == 3 and image.shape[2] == 3 and image.size > 0
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shot:
     """One image of a source.
