@@ -129,6 +129,8 @@ class CaseIndex:
                     self._lineage.add(document)
                     # Of a whole case only few contents are asked for.
                     if not is_first and document.heading is not None:
+                        if len(self._contents) >= MAX_CONTENTS:
+                            self._contents.clear()
                         self._contents[document.id] = content_of(document.content)
                 self._lineage.complete(recorded_versions(session, case_id))
         except BaseException:

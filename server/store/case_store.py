@@ -183,14 +183,24 @@ class CaseStore:
             files=files,
             expected_version=expected_version,
         )
+        document, *others = self._add(case_id, new, companions)
+        for one in (document, *others):
+            self._on_change(Change.added(one))
+        return document
+
+    def _add(
+        self,
+        case_id: str,
+        new: NewDocument,
+        companions: Callable[[Document], Sequence[NewDocument]] = lambda _: (),
+    ) -> tuple[Document, ...]:
+        """Store a document and its companions in one transaction."""
         with self._database.write_session() as session:
             row, now = cases.case_row(session, case_id), self._database.now
             row.changed_at = now
             document = documents.add_document(session, case_id, new, now=now)
             others = [documents.add_document(session, case_id, one, now=now) for one in companions(document)]
-        for one in (document, *others):
-            self._on_change(Change.added(one))
-        return document
+        return (document, *others)
 
     def document(self, case_id: str, document_id: str) -> Document:
         """Return a document; StoreError DOCUMENT_DAMAGED."""
@@ -300,7 +310,7 @@ class CaseStore:
                 case.changed_at = self._database.now
                 withdrawal = Withdrawal(at=case.changed_at, by=by, reason=reason)
                 documents.withdraw_document(session, found, withdrawal)
-                found = documents.find_document(session, document.case_id, document.id)
+                found = replace(found, withdrawn=withdrawal)
         if is_news:
             self._on_change(Change.withdrawn(found, by=by))
         return found
@@ -334,10 +344,7 @@ class CaseStore:
             files=restored.files,
             expected_version=newest.version,
         )
-        with self._database.write_session() as session:
-            case, now = cases.case_row(session, restored.case_id), self._database.now
-            case.changed_at = now
-            stored = documents.add_document(session, restored.case_id, new, now=now)
+        (stored,) = self._add(restored.case_id, new)
         self._on_change(replace(Change.added(stored), before=restored.version))
         return stored
 

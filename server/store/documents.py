@@ -136,11 +136,8 @@ def read_documents(session: Session, case_id: str, ids: Sequence[str]) -> tuple[
         NotFound: DOCUMENT_UNKNOWN.
         StoreError: DOCUMENT_DAMAGED.
     """
-    found: dict[str, Document] = {}
-    for stored in stored_documents(session, case_id, DocumentRow.id.in_(ids)):
-        if stored.heading is None:
-            raise document_damaged(case_id, stored.id)
-        found[stored.id] = Document.of(stored.heading, content_of(stored.content))
+    stored = stored_documents(session, case_id, DocumentRow.id.in_(ids))
+    found = {one.id: _document_of(case_id, one) for one in stored}
     for unknown in set(ids) - found.keys():
         raise document_unknown(case_id, unknown)
     return tuple(found[one] for one in ids)
@@ -149,9 +146,7 @@ def read_documents(session: Session, case_id: str, ids: Sequence[str]) -> tuple[
 def every_document(session: Session, case_id: str) -> Iterator[Document]:
     """Yield all documents of a case, each after those that it depends on; StoreError DOCUMENT_DAMAGED."""
     for stored in stored_documents(session, case_id):
-        if stored.heading is None:
-            raise document_damaged(case_id, stored.id)
-        yield Document.of(stored.heading, content_of(stored.content))
+        yield _document_of(case_id, stored)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -201,6 +196,13 @@ def stored_documents(
             content=row.content,
             heading=_heading_of(row, depends_on, belonging) if intact else None,
         )
+
+
+def _document_of(case_id: str, stored: StoredDocument) -> Document:
+    """Return the document of a row; StoreError DOCUMENT_DAMAGED."""
+    if stored.heading is None:
+        raise document_damaged(case_id, stored.id)
+    return Document.of(stored.heading, content_of(stored.content))
 
 
 def content_of(stored: str) -> Mapping[str, object]:
