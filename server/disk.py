@@ -1,6 +1,7 @@
 """Writing of large files: check of the disk space, and renaming when they are complete."""
 
 import errno
+import fcntl
 import os
 import shutil
 from collections.abc import Iterator
@@ -13,6 +14,8 @@ FULL = "STORE_FULL"
 FREE_SPACE_REMEDY = "Free disk space and try again; everything confirmed before is stored."
 # Large writes leave this much free.
 RESERVED_BYTES = 64 * 2**20
+# On macOS fsync leaves data in the drive's cache.
+FULL_SYNC: int | None = getattr(fcntl, "F_FULLFSYNC", None)
 
 
 class DiskFull(NavigationError):
@@ -38,12 +41,20 @@ def reject_without_space(folder: Path, needed_bytes: int) -> None:
 
 
 def sync_path(path: Path) -> None:
-    """Sync a file, or the entries of a folder, to the disk."""
+    """Make a file durable, or the created, renamed and removed entries of a folder (fsync)."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
-        os.fsync(descriptor)
+        sync_file(descriptor)
     finally:
         os.close(descriptor)
+
+
+def sync_file(descriptor: int) -> None:
+    """Make written data durable (fsync)."""
+    os.fsync(descriptor)
+    if FULL_SYNC is not None:
+        with suppress(OSError):
+            fcntl.fcntl(descriptor, FULL_SYNC)
 
 
 def reserve_space(path: Path) -> None:

@@ -7,8 +7,8 @@ import structlog
 
 from server.certificate.signature import SigningKey, existing_signer, json_of
 from server.certificate.validity import VerifiedCertificate, verified
+from server.disk import sync_path
 from server.store import translate_errors
-from server.store.home import sync_folder
 from server.store.private_file import write_private
 from tracker.errors import InvalidInput
 
@@ -50,7 +50,7 @@ class InstalledCertificates:
         with translate_errors(self._home):
             self._folder.mkdir(mode=0o700, exist_ok=True)
             write_private(self._file(marker), json_of(file))
-            sync_folder(self._folder)
+            sync_path(self._folder)
         return found
 
     def all(self) -> tuple[VerifiedCertificate, ...]:

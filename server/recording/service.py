@@ -24,6 +24,7 @@ import structlog
 from server.alarms import AlarmService
 from server.clock import utc_now, utc_text
 from server.config import Config
+from server.disk import sync_file, sync_path
 from server.errors import RecordingError, SetupOrderError
 from server.live import Problem
 from server.logs import LogSettings
@@ -38,7 +39,7 @@ from server.recording_file import Topic, WriterLimits
 from server.recording_file.locations import read_duration_s
 from server.recording_file.topics import SUFFIX
 from server.store import Case, CaseStore, Change, DocumentKind, NotFound, StoreError
-from server.store.home import PRIVATE, RECORDINGS, sync_file, sync_folder
+from server.store.home import PRIVATE, RECORDINGS
 
 NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
 TIME_FORMAT = "%Y%m%dT%H%M%SZ"
@@ -337,7 +338,7 @@ class RecordingService:
             mark.touch(mode=0o600)
         else:
             mark.unlink(missing_ok=True)
-        sync_folder(mark.parent)
+        sync_path(mark.parent)
 
     def delete(self, name: str) -> None:
         """Delete a recording.
@@ -365,7 +366,7 @@ class RecordingService:
         for index in path.parent.glob(f"{index_path(path).name}*"):
             index.unlink(missing_ok=True)
         shutil.rmtree(exports_folder(path), ignore_errors=True)
-        sync_folder(path.parent)
+        sync_path(path.parent)
 
     def _rotate(self) -> None:
         """Delete the oldest unprotected recordings of all cases, until enough of the budget is free.
@@ -425,7 +426,7 @@ class RecordingService:
             for earlier in folder.glob(f"*{made.suffix}"):
                 if earlier != stored:
                     earlier.unlink(missing_ok=True)
-            sync_folder(folder)
+            sync_path(folder)
             return stored
 
     def put_mark(self, text: str) -> None:
@@ -473,7 +474,7 @@ class RecordingService:
             # Prevents the deletion of the case during the recording.
             stack.enter_context(self._store.in_use(case.id))
             folder.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
-            sync_folder(folder.parent)
+            sync_path(folder.parent)
             order = RecordingOrder(
                 path=folder / name,
                 limits=WriterLimits(max_bytes=left_bytes, min_free_bytes=settings.min_free_gb * 1e9),

@@ -5,11 +5,12 @@ import shutil
 import structlog
 from sqlalchemy import select
 
+from server.disk import sync_path
 from server.store import cases
 from server.store.case_database import CaseDatabase
 from server.store.errors import StoreError, translate_errors
 from server.store.files import UNFINISHED, discard, is_intact
-from server.store.home import RECORDINGS, sync_folder
+from server.store.home import RECORDINGS
 from server.store.tables import PRESENT, WRITING, CaseRow, FileRow
 
 log = structlog.get_logger(__name__)
@@ -44,7 +45,7 @@ def remove_case(database: CaseDatabase, case_id: str) -> None:
             if folder.exists():
                 shutil.rmtree(folder)
                 # Before the row: after a power cut nobody would know whose files these are.
-                sync_folder(folder.parent)
+                sync_path(folder.parent)
         with database.write_session() as session:
             row = session.get(CaseRow, case_id)
             if row is not None:

@@ -16,8 +16,9 @@ from sqlalchemy import Connection, Engine, create_engine, event, inspect, text
 from sqlalchemy.engine.interfaces import DBAPIConnection
 from sqlalchemy.pool import ConnectionPoolEntry
 
+from server.disk import sync_path
 from server.store.errors import damaged_database, translate_errors
-from server.store.home import Home, sync_folder
+from server.store.home import Home
 
 log = structlog.get_logger(__name__)
 
@@ -56,14 +57,17 @@ def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path =
     event.listen(engine, "begin", _begin)
     with translate_errors(home.folder):
         try:
-            with _damaged_names(home):
-                _check(engine, home, now)
+            _check(engine, home, now)
             if migrations != MIGRATIONS or _revision(engine) != CURRENT_REVISION:
                 # Imported on demand: Alembic takes half a second, and most starts need no migration.
                 from server.store.migration import migrate  # noqa: PLC0415
 
                 migrate(engine, home, now=now, migrations=migrations)
-            sync_folder(home.folder)
+            sync_path(home.folder)
+        except UnicodeDecodeError as error:
+            # A complaint of SQLite can quote a damaged name that is no text.
+            engine.dispose()
+            raise damaged_database(home.folder, str(error)) from error
         except BaseException:
             engine.dispose()
             raise
@@ -138,15 +142,6 @@ def _complaints(connection: sqlite3.Connection) -> list[str]:
     return [complaint for (complaint,) in rows if complaint != "ok" and not OF_VALUES.match(complaint)]
 
 
-@contextmanager
-def _damaged_names(home: Home) -> Iterator[None]:
-    """Context manager for statements whose errors can quote a damaged name that is no text."""
-    try:
-        yield
-    except UnicodeDecodeError as error:
-        raise damaged_database(home.folder, str(error)) from error
-
-
 def back_up(engine: Engine, home: Home, *, name: str) -> None:
     """Make a durable backup of the database."""
     part = home.backups / f"{name}.part"
@@ -154,7 +149,7 @@ def back_up(engine: Engine, home: Home, *, name: str) -> None:
         target.execute("PRAGMA synchronous = FULL")
         source.backup(target)
     part.replace(home.backups / name)
-    sync_folder(home.backups)
+    sync_path(home.backups)
 
 
 def _revision(engine: Engine) -> str | None:

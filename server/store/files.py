@@ -14,12 +14,13 @@ from pathlib import Path
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
+from server.disk import sync_file, sync_path
 from server.store.case_database import CaseDatabase
 from server.store.cases import case_row, new_id
 from server.store.checksums import file_checksum
 from server.store.documents import file_unknown
 from server.store.errors import StoreError, translate_errors
-from server.store.home import PRIVATE, sync_file, sync_folder
+from server.store.home import PRIVATE
 from server.store.records import Damage, StoredFile
 from server.store.tables import COMPLETE, WRITING, FileRow
 from server.store.validation import validate_suffix
@@ -81,7 +82,7 @@ def make_folder(folder: Path) -> None:
     """Create the folder of a case durably."""
     if not folder.is_dir():
         folder.mkdir(mode=PRIVATE, exist_ok=True)
-        sync_folder(folder.parent)
+        sync_path(folder.parent)
 
 
 def commit_file(part: Path, whole: Path) -> tuple[int, str]:
@@ -91,7 +92,7 @@ def commit_file(part: Path, whole: Path) -> tuple[int, str]:
         size_bytes, sha256 = size_and_sha256(stream.fileno())
     part.chmod(READ_ONLY)
     part.replace(whole)
-    sync_folder(whole.parent)
+    sync_path(whole.parent)
     return size_bytes, sha256
 
 
@@ -119,7 +120,7 @@ def discard(database: CaseDatabase, case_id: str, file_id: str) -> None:
         for path in (folder / f"{UNFINISHED}{file_id}", folder / file_id):
             path.unlink(missing_ok=True)
         if folder.is_dir():
-            sync_folder(folder)
+            sync_path(folder)
     with database.write_session() as session:
         row = session.get(FileRow, (case_id, file_id))
         if row is not None:

@@ -1,8 +1,6 @@
 """The data folder, used by one server at a time."""
 
 import errno
-import fcntl
-import os
 import secrets
 import shutil
 from contextlib import suppress
@@ -11,7 +9,7 @@ from types import TracebackType
 
 import filelock
 
-from server.disk import reject_without_space
+from server.disk import reject_without_space, sync_path
 from server.store.errors import StoreError, translate_errors
 
 # Patient data are accessible only to the user who runs the server.
@@ -21,8 +19,6 @@ RECORDINGS = "recordings"
 RESERVE_BYTES = 2**20
 # Errors of file systems without locks, such as some network disks and container volumes.
 WITHOUT_LOCKS = frozenset({errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP})
-# On macOS fsync leaves data in the drive's cache.
-FULL_SYNC: int | None = getattr(fcntl, "F_FULLFSYNC", None)
 
 
 class Home:
@@ -63,7 +59,7 @@ class Home:
                 for room in (self.backups, self.cases, self.temporary):
                     room.mkdir(mode=PRIVATE, exist_ok=True)
                 self.allocate_reserve()
-                sync_folder(folder)
+                sync_path(folder)
             except OSError:
                 self._lock.release()
                 raise
@@ -108,23 +104,6 @@ class Home:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
-
-
-def sync_folder(folder: Path) -> None:
-    """Make created, renamed and removed directory entries durable (fsync of the folder)."""
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        sync_file(descriptor)
-    finally:
-        os.close(descriptor)
-
-
-def sync_file(descriptor: int) -> None:
-    """Make written data durable (fsync)."""
-    os.fsync(descriptor)
-    if FULL_SYNC is not None:
-        with suppress(OSError):
-            fcntl.fcntl(descriptor, FULL_SYNC)
 
 
 def _without_locks(folder: Path) -> StoreError:

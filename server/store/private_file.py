@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from server.store.home import sync_file, sync_folder
+from server.disk import sync_file, sync_path
 
 OWNER_ONLY = 0o600
 
@@ -49,7 +49,7 @@ class PrivateJsonFile:
             OSError: it cannot be written; the stored object stays.
         """
         write_private(self.path, json.dumps({"form": self._form, **members}, indent=1).encode())
-        sync_folder(self.path.parent)
+        sync_path(self.path.parent)
 
 
 def write_private(file: Path, content: bytes) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 import structlog
 
 from server.clock import Clock, utc_now, utc_text
+from server.disk import sync_file, sync_path
 from server.security.audit.chain import BROKEN, Fault, Head, Verdict, chained_line
 from server.security.audit.changes import note
 from server.security.audit.entries import Entry
@@ -18,7 +19,6 @@ from server.security.audit.files import last_lines, read_head, write_head
 from server.security.audit.verification import LogVerifier, end_fault, verify_content
 from server.security.person import SERVER
 from server.store import Change, translate_errors
-from server.store.home import sync_file, sync_folder
 from server.store.private_file import OWNER_ONLY, write_all, write_private
 from tracker.errors import NavigationError
 
@@ -159,7 +159,7 @@ class AuditLog:
         """Remove a partial last line, report changes by others, and find the end of the chain."""
         if not self.file.exists():
             os.close(os.open(self.file, os.O_WRONLY | os.O_CREAT, OWNER_ONLY))
-            sync_folder(self.folder)
+            sync_path(self.folder)
         content = self.file.read_bytes()
         *lines, rest = content.split(b"\n")
         known, verdict = read_head(self._head_file), self._verifier.verify(content)

@@ -13,8 +13,8 @@ from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
+from server.disk import sync_path
 from server.security.addresses import outbound_address
-from server.store.home import sync_folder
 from server.store.private_file import write_private
 
 CERTIFICATE_FILE, KEY_FILE = "certificate.pem", "key.pem"
@@ -47,7 +47,7 @@ def load_or_create(
     now = clock()
     if not _is_usable(found, names, addresses, now):
         _make(found, names, addresses, now)
-        sync_folder(folder)
+        sync_path(folder)
     return found
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from sqlalchemy.orm import Session
 
+from server.disk import sync_file, sync_path
 from server.store.archive.reader import Parts, open_archive, parse_part
 from server.store.archive.schema import (
     CASE,
@@ -21,7 +22,6 @@ from server.store.cleanup import remove_case
 from server.store.documents import insert_document
 from server.store.errors import translate_errors
 from server.store.files import READ_ONLY, UNFINISHED, make_folder
-from server.store.home import sync_file, sync_folder
 from server.store.records import Case, DocumentKind, ImportRecord, says_archive
 from server.store.tables import (
     COMPLETE,
@@ -142,7 +142,7 @@ def _write_files(folder: Path, case: CaseSchema, parts: Parts) -> None:
             sync_file(stream.fileno())
         part.chmod(READ_ONLY)
         part.replace(folder / file.id)
-    sync_folder(folder)
+    sync_path(folder)
 
 
 def _insert_case(

@@ -110,8 +110,8 @@ def fault_of(name: str) -> Iterator[None]:
         if name == "no-sync":
             replace(files, "sync_file", none)
         if name == "no-folder-sync":
-            replace(files, "sync_folder", none)
-            replace(home, "sync_folder", none)
+            replace(files, "sync_path", none)
+            replace(home, "sync_path", none)
         if name == "no-commit-sync":
             replace(database, "PRAGMAS", (*database.PRAGMAS, "PRAGMA synchronous = NORMAL"))
         yield

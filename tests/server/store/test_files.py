@@ -118,7 +118,7 @@ def test_files_that_the_database_does_not_know_are_left_alone(tmp_path: Path) ->
         assert all(stray.exists() for stray in strays)
 
 
-STEPS = ("make_folder", "commit_file", "_record", "fsync", "replace", "sync_folder")
+STEPS = ("make_folder", "commit_file", "_record", "fsync", "replace", "sync_path")
 
 
 class Copies:
@@ -151,7 +151,7 @@ def copies(home: Home, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Itera
 
     around(os, "fsync")
     around(files, "make_folder")
-    around(files, "sync_folder")
+    around(files, "sync_path")
     around(Path, "replace")
     around(Path, "unlink")
     around(shutil, "rmtree")
