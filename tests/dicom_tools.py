@@ -62,8 +62,8 @@ class Orthanc:
 
     def find(self, level: str, query: dict[str, str]) -> list[dict[str, Any]]:
         """What it stores at a level ("Study", "Series", "Instance") that matches."""
-        asked = json.dumps({"Level": level, "Query": query, "Expand": True}).encode()
-        with urllib.request.urlopen(f"{self.http}/tools/find", data=asked, timeout=30) as answer:  # noqa: S310  loopback
+        request = json.dumps({"Level": level, "Query": query, "Expand": True}).encode()
+        with urllib.request.urlopen(f"{self.http}/tools/find", data=request, timeout=30) as answer:  # noqa: S310  loopback
             found: list[dict[str, Any]] = json.load(answer)
         return found
 

@@ -202,8 +202,8 @@ def document_message(document: Document, validity: Validity) -> DocumentMessage:
 
 
 def _worded(content: Mapping[str, object]) -> dict[str, object]:
-    told = worded(content, requested_language())
-    return dict(told) if isinstance(told, Mapping) else {}
+    localized = worded(content, requested_language())
+    return dict(localized) if isinstance(localized, Mapping) else {}
 
 
 def documents_message(entries: tuple[Entry, ...]) -> DocumentsMessage:

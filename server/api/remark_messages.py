@@ -26,7 +26,9 @@ def stored_remark_messages(stored: object) -> list[RemarkMessage]:
 
 
 def _message(stored: object) -> RemarkMessage:
-    told = worded(stored, requested_language())
-    if not isinstance(told, dict):
-        return RemarkMessage(code="", message=str(told), remedy="")
-    return RemarkMessage(code=str(told["code"]), message=str(told["message"]), remedy=str(told["remedy"]))
+    localized = worded(stored, requested_language())
+    if not isinstance(localized, dict):
+        return RemarkMessage(code="", message=str(localized), remedy="")
+    return RemarkMessage(
+        code=str(localized["code"]), message=str(localized["message"]), remedy=str(localized["remedy"])
+    )

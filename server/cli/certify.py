@@ -41,7 +41,7 @@ from server.tool_file import load_tool_file
 from tracker.accuracy import AccuracyAssessment, AccuracyLimits
 from tracker.errors import InvalidInput
 
-REFUSED = 1
+REJECTED = 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -131,7 +131,7 @@ def issue_certificate(options: IssueOptions, *, as_json: bool) -> int:
     certificate = found.certificate
     written = [] if certificate is None else _write(certificate, options.output)
     _print(found.assessment, certificate, written, as_json=as_json)
-    return REFUSED if certificate is None else 0
+    return REJECTED if certificate is None else 0
 
 
 def _write(certificate: Certificate, output: Path | None) -> list[Path]:

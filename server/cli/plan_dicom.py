@@ -100,8 +100,8 @@ def _check_same_ct(file: PlanFile, ct: Ct, voxels: Path) -> None:
     except (TypeError, ValueError, OverflowError):
         affine = np.zeros(0)
     own = ct.volume.lps_from_ijk
-    is_placed_alike = affine.shape == own.shape and np.allclose(affine, own, rtol=0.0, atol=MAX_OFF_MM)
-    if file.ct_marks.get("voxels_sha256") != checksum or not is_placed_alike:
+    is_same_placement = affine.shape == own.shape and np.allclose(affine, own, rtol=0.0, atol=MAX_OFF_MM)
+    if file.ct_marks.get("voxels_sha256") != checksum or not is_same_placement:
         raise InvalidInput(
             "PLAN_OF_ANOTHER_CT",
             "the plan was made on another CT than the given one, or does not state its CT",

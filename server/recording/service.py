@@ -45,7 +45,7 @@ NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
 TIME_FORMAT = "%Y%m%dT%H%M%SZ"
 PROTECTED = ".protected"
 # Rotation leaves a fifth of the budget for the new recording.
-MAX_KEPT_RATIO = 0.8
+MAX_STORED_RATIO = 0.8
 EXPORTS = ".exports"
 POLL_S = 0.25
 # Waiting time after a failure, instead of an attempt at each of the four polls per second.
@@ -373,7 +373,7 @@ class RecordingService:
 
         Nothing is deleted where that is not possible, because protected ones take too much of it.
         """
-        over_bytes = self._total_bytes() - MAX_KEPT_RATIO * self._config.recording.max_total_gb * 1e9
+        over_bytes = self._total_bytes() - MAX_STORED_RATIO * self._config.recording.max_total_gb * 1e9
         # Names begin with the time.
         unprotected = sorted(
             (

@@ -100,15 +100,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--systems", type=int, default=100)
     given = parser.parse_args()
-    held: Counter[str] = Counter()
-    refused: Counter[str] = Counter()
+    confirmed: Counter[str] = Counter()
+    outcomes: Counter[str] = Counter()
     for number in range(given.systems):
         system = system_of(number)
         found = assessed(system)
-        refused.update({problem.code for problem in found.problems} or {"certified"})
+        outcomes.update({problem.code for problem in found.problems} or {"certified"})
         for claim, holds in claims(system, found):
-            held[claim] += holds
-    for claim, count in held.items():
+            confirmed[claim] += holds
+    for claim, count in confirmed.items():
         low, high = (
             stats.beta.ppf(0.025, count, given.systems - count + 1),
             stats.beta.ppf(0.975, count + 1, given.systems - count) if count < given.systems else 1.0,
@@ -116,7 +116,7 @@ def main() -> None:
         sys.stdout.write(
             f"{claim:38s} {count:4d} of {given.systems} (95 % interval {low:.0%} to {high:.0%})\n"
         )
-    sys.stdout.write(f"outcomes of sound systems: {dict(refused)}\n")
+    sys.stdout.write(f"outcomes of sound systems: {dict(outcomes)}\n")
 
 
 if __name__ == "__main__":

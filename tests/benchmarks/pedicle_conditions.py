@@ -80,13 +80,13 @@ def condition_tables(phantoms: int = PHANTOMS) -> list[Table]:
             [
                 condition.name,
                 *counts,
-                *(f"{one:.2f} / {most:.2f}" for one, most in sizes),
+                *(f"{one:.2f} / {largest:.2f}" for one, largest in sizes),
                 f"{max(found.seconds):.1f}",
             ]
         )
-        held = [_held(column) for column in np.abs(z).T]
+        covered = [_coverage_text(column) for column in np.abs(z).T]
         rms = np.sqrt(np.mean(z**2, axis=0))
-        ratios.append([condition.name, *(f"{one:.2f}, {two}" for one, two in zip(rms, held, strict=True))])
+        ratios.append([condition.name, *(f"{one:.2f}, {two}" for one, two in zip(rms, covered, strict=True))])
     return [
         Table(
             title="Error by condition, median / 95 %",
@@ -103,10 +103,10 @@ def condition_tables(phantoms: int = PHANTOMS) -> list[Table]:
     ]
 
 
-def _held(ratios: np.ndarray) -> str:
-    held, count = int((ratios <= 1.96).sum()), len(ratios)
-    bound = float(scipy.stats.beta.ppf(0.05, held, count - held + 1)) if held else 0.0
-    return f"{held}/{count} (> {100.0 * bound:.0f} %)"
+def _coverage_text(ratios: np.ndarray) -> str:
+    covered, count = int((ratios <= 1.96).sum()), len(ratios)
+    bound = float(scipy.stats.beta.ppf(0.05, covered, count - covered + 1)) if covered else 0.0
+    return f"{covered}/{count} (> {100.0 * bound:.0f} %)"
 
 
 def _measured(condition: Condition, phantoms: int) -> _Found:

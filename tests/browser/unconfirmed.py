@@ -5,8 +5,8 @@ from playwright.sync_api import Route
 
 def answer_unconfirmed(route: Route) -> None:
     """Answer the state of the procedure as after a restart."""
-    told = route.fetch().json()
-    told["confirmation"] = {
+    reply = route.fetch().json()
+    reply["confirmation"] = {
         "because": "server_started",
         "registration_id": "r1",
         "vertebra": "L3",
@@ -14,4 +14,4 @@ def answer_unconfirmed(route: Route) -> None:
         "registered_by": "ito",
         "reference": None,
     }
-    route.fulfill(json=told)
+    route.fulfill(json=reply)

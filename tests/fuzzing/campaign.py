@@ -204,13 +204,13 @@ def _try_inputs(
                 seen.add(outcome.key)
                 if not outcome.problem:
                     seeds.append(content)
-                told = {
+                outcome = {
                     "key": outcome.key,
                     "kind": kind,
                     "problem": outcome.problem,
                     "content": content.hex(),
                 }
-                outcomes.write(json.dumps(told) + "\n")
+                outcomes.write(json.dumps(outcome) + "\n")
             if kind == "memory":
                 # The peak of this process stays; another one goes on.
                 return

@@ -167,8 +167,8 @@ def test_a_tip_that_is_one_millimetre_off_is_refused_by_name(server: Server) -> 
     bench.begin()
     problems = bench.perform(30)["problems"]
     assert problems[0]["code"] == "ACCURACY_TIP_OFFSET"
-    refused = server.ask("POST", f"{BASE}/conclusion", 409, json={"made_by": "ito"})
-    assert refused == problems[0]
+    rejection = server.ask("POST", f"{BASE}/conclusion", 409, json={"made_by": "ito"})
+    assert rejection == problems[0]
     assert server.ask("GET", "/api/certificates", 200)["tools"][0]["problem"]["code"] == "CERTIFICATE_MISSING"
     # It stays, so that it can be read, and no figure is got rid of by another attempt to issue.
     assert bench.state()["taken"] == 30

@@ -74,8 +74,8 @@ def with_vertebra(server: Server, name: str, label: str) -> str:
 
 
 def measured(server: Server, name: str, side: str, point: list[float]) -> Any:  # noqa: ANN401  JSON
-    asked = {**BY, "seed_lps_mm": point}
-    return server.done(server.ask("POST", f"/api/plan/vertebrae/{name}/pedicles/{side}", 202, json=asked))
+    request = {**BY, "seed_lps_mm": point}
+    return server.done(server.ask("POST", f"/api/plan/vertebrae/{name}/pedicles/{side}", 202, json=request))
 
 
 def test_both_pedicles_are_measured_from_the_label(server: Server) -> None:
@@ -95,9 +95,9 @@ def test_both_pedicles_are_measured_from_the_label(server: Server) -> None:
     ]
     assert server.ask("GET", "/api/labels/starts/L4", 409)["code"] == "LEVEL_WITHOUT_LABEL"
     place = server.ask("GET", "/api/ct/slices/axial?at_mm=0", 200)
-    asked = {key: place[key] for key in ("width_px", "height_px")}
-    asked["lps_from_px"] = [one for row in place["lps_from_px"] for one in row]
-    (one,) = server.ask("GET", "/api/labels/outlines", 200, params=asked)["outlines"]
+    request = {key: place[key] for key in ("width_px", "height_px")}
+    request["lps_from_px"] = [one for row in place["lps_from_px"] for one in row]
+    (one,) = server.ask("GET", "/api/labels/outlines", 200, params=request)["outlines"]
     assert one["level"] == "L3"
     assert len(one["rings_lps_mm"]) >= 2, "the bone, and its canal as a hole"
 
@@ -106,9 +106,9 @@ def test_a_plan_for_another_level_than_its_label_is_refused_and_stated(server: S
     case = with_vertebra(server, "L3", "L4")
     hand = {"entry_lps_mm": [15, 14, 2], "target_lps_mm": [8, -30, 3], "diameter_mm": 6.0}
     lay = "/api/plan/vertebrae/L3/channels/left"
-    refused = server.ask("PUT", lay, 409, json={**BY, "by_hand": hand})
-    assert refused["code"] == "LEVEL_DOUBTFUL"
-    assert "L4" in refused["message"]
+    rejection = server.ask("PUT", lay, 409, json={**BY, "by_hand": hand})
+    assert rejection["code"] == "LEVEL_DOUBTFUL"
+    assert "L4" in rejection["message"]
     assert server.ask("GET", "/api/plan", 200)["plan"]["vertebrae"][0]["channels"] == []
 
     # Labels that come after the plan do not change it; they are stated, and stop navigation.

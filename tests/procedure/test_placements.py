@@ -150,22 +150,22 @@ def test_the_channel_that_the_drill_is_nearer_to_is_proposed_and_not_switched(
 ) -> None:
     observe = server.steps.channel_proposer.observe
 
-    def held(seen: Seen | None) -> Any:  # noqa: ANN401  a proposal or None
+    def proposal_after(seen: Seen | None) -> Any:  # noqa: ANN401  a proposal or None
         return [observe(patient.show(seen)) for _ in range(40)][-1]
 
-    assert held(drilled(-2.0)) is None
-    proposed = held(drilled(-2.0, side="right"))
+    assert proposal_after(drilled(-2.0)) is None
+    proposed = proposal_after(drilled(-2.0, side="right"))
     assert (proposed.vertebra, proposed.side, proposed.is_registered) == ("L3", "right", True)
     assert [one["is_active"] for one in channels(server).values()] == [True, False]
     # Without a pose nothing is proposed.
-    assert held(None) is None
+    assert proposal_after(None) is None
     # Switched by a person: the chosen one is not proposed.
     activate(server, side="right")
-    assert held(drilled(-2.0, side="right")) is None
-    assert held(drilled(-2.0)).side == "left"
+    assert proposal_after(drilled(-2.0, side="right")) is None
+    assert proposal_after(drilled(-2.0)).side == "left"
     # A channel with its screw is not proposed.
     activate(server)
     patient.show(drilled(30.0))
     server.ask("POST", PLACEMENTS, 201, json=PLACE)
     activate(server, side="right")
-    assert held(drilled(-2.0)) is None
+    assert proposal_after(drilled(-2.0)) is None

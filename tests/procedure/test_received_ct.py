@@ -101,8 +101,8 @@ def test_a_killed_receiver_comes_back_and_half_a_series_cannot_be_taken(receivin
     (half,) = listed["series"]
     assert (half["files"], half["complete"]) == (10, False)
     open_case(receiving)
-    refused = receiving.ask("POST", f"/api/ct/received/{half['id']}", 422, params=BY)
-    assert refused["code"] == "RECEIVED_NOT_COMPLETE"
+    rejection = receiving.ask("POST", f"/api/ct/received/{half['id']}", 422, params=BY)
+    assert rejection["code"] == "RECEIVED_NOT_COMPLETE"
     # The socket was open all the time: the sender waits until the new process answers.
     send(receiving, slices)
     assert complete(receiving)["files"] == len(slices)

@@ -189,9 +189,9 @@ def _fault_problems(
         Fault.FOCAL_LENGTH: limits.max_focal_error_ratio,
     }
     over = [one for one in diagnosis.estimates if one.max_size > allowed[one.fault]]
-    alike = [one.fault for one in over if one.fault in diagnosis.alike]
-    if len(alike) > 1:
-        names = " or ".join(_NAMES[fault] for fault in alike)
+    indistinct = [one.fault for one in over if one.fault in diagnosis.indistinct]
+    if len(indistinct) > 1:
+        names = " or ".join(_NAMES[fault] for fault in indistinct)
         return [
             CalibrationError(
                 "ACCURACY_FAULT_AMBIGUOUS",

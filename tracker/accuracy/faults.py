@@ -78,12 +78,12 @@ class Diagnosis:
 
     Attributes:
         estimates: one per fault.
-        alike: faults of which one is present, but the captures do not tell which; empty otherwise.
+        indistinct: faults of which one is present, but the captures do not tell which; empty otherwise.
         noise_ratio: standard deviation of the residuals by the stated one.
     """
 
     estimates: tuple[FaultEstimate, ...]
-    alike: tuple[Fault, ...]
+    indistinct: tuple[Fault, ...]
     noise_ratio: float
 
     def of(self, fault: Fault) -> FaultEstimate:
@@ -147,7 +147,7 @@ def diagnose(
     is_open = together < FALSE_ALARM and not any(one.is_found for one in estimates)
     return Diagnosis(
         estimates=tuple(estimates),
-        alike=tuple(adequate or COLUMNS) if is_open else (),
+        indistinct=tuple(adequate or COLUMNS) if is_open else (),
         noise_ratio=variance**0.5,
     )
 

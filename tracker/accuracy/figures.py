@@ -118,8 +118,8 @@ def figures_of(fit: PlateFit, plate: DivotPlate, tool: TrackedTool) -> Figures:
         FigureName.POINT_PRECISION: (_precision(fit, found), count),
         FigureName.DISTANCE_RMS: (
             jackknife_rms(
-                lambda kept: (
-                    float((distances[kept[first] & kept[second]] ** 2).mean()) * _fit_correction(fit)
+                lambda selected: (
+                    float((distances[selected[first] & selected[second]] ** 2).mean()) * _fit_correction(fit)
                 ),
                 groups,
             ).estimate,
@@ -206,7 +206,7 @@ def _point(fit: PlateFit, found: VarianceComponents) -> JackknifeRms:
         within + (between - within) / found.size, float(of_captures.mean()) * _fit_correction(fit)
     )
     return jackknife_rms(
-        lambda kept: float(squares[kept].mean()),
+        lambda selected: float(squares[selected].mean()),
         fit.group_index,
         value=of_capture + float(jitter.mean()),
         freedom=len(squares) / _fit_correction(fit) * effective_dimension(found.total_mm2),
@@ -218,9 +218,9 @@ def _precision(fit: PlateFit, found: VarianceComponents) -> Estimate:
     means = np.array([fit.residuals_mm[fit.group_index == one].mean(axis=0) for one in range(fit.groups)])
     squares = ((fit.residuals_mm - means[fit.group_index]) ** 2).sum(axis=1)
 
-    def mean_square(kept: npt.NDArray[np.bool_]) -> float:
-        freedom = int(kept.sum()) - len(np.unique(fit.group_index[kept]))
-        return float(squares[kept].sum()) / max(freedom, 1)
+    def mean_square(selected: npt.NDArray[np.bool_]) -> float:
+        freedom = int(selected.sum()) - len(np.unique(fit.group_index[selected]))
+        return float(squares[selected].sum()) / max(freedom, 1)
 
     return jackknife_rms(mean_square, fit.group_index, freedom=found.within_freedom).estimate
 
@@ -244,7 +244,7 @@ def _error_95_at_mm(fit: PlateFit, placement: int) -> float:
     correction = 3 * len(residuals) / (3 * len(residuals) - POSE_PARAMETERS)
     squares = (residuals**2).sum(axis=1) * correction + np.trace(averaged_mm2, axis1=1, axis2=2)
     rms = jackknife_rms(
-        lambda kept: float(squares[kept].mean()),
+        lambda selected: float(squares[selected].mean()),
         groups,
         freedom=len(squares) / correction * effective_dimension(total_mm2),
     )
@@ -295,7 +295,7 @@ def _orientation(fit: PlateFit, tool: TrackedTool) -> Estimate:
     along = (fit.residuals_mm * levers).sum(axis=1) / length
     across = ((fit.residuals_mm**2).sum(axis=1) - along**2) * _fit_correction(fit) / length**2
     across_deg2 = np.maximum(across, 0.0) * np.degrees(1.0) ** 2
-    return jackknife_rms(lambda kept: float(across_deg2[kept].mean()), fit.group_index).estimate
+    return jackknife_rms(lambda selected: float(across_deg2[selected].mean()), fit.group_index).estimate
 
 
 def _repeatability(fit: PlateFit) -> tuple[Estimate, int] | None:

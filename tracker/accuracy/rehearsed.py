@@ -194,8 +194,8 @@ def _capture(
     in_plate = np.array(system.plate.points_mm[divot]) - divots.mean(axis=0)
     at = plate.move_points((1.0 + system.faults.print_scale_ratio) * in_plate)
     at = at + random.normal(size=3) * system.plate.sd_mm
-    held_deg = np.array(way_deg) + random.normal(size=3) * POSTURE_SD_DEG
-    rotation = plate.rotation @ rotation_from_vector(np.radians(held_deg)) @ _upright(system)
+    posture_deg = np.array(way_deg) + random.normal(size=3) * POSTURE_SD_DEG
+    rotation = plate.rotation @ rotation_from_vector(np.radians(posture_deg)) @ _upright(system)
     true: Rigid[Camera, Marker] = Rigid(
         rotation=rotation, translation_mm=at - rotation @ np.array(system.tip_in_marker_mm)
     )

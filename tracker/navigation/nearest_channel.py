@@ -64,11 +64,11 @@ class NearestChannelMonitor:
         active_mm = distance_to_channel_mm(tip_in_vertebra_mm, active)
         distances = {name: distance_to_channel_mm(tip_in_vertebra_mm, one) for name, one in others.items()}
         nearest = min(distances, key=lambda name: distances[name])
-        kept_mm = distances.get(self._proposed or "", np.inf)
-        if not (active_mm - kept_mm >= MIN_STILL_NEARER_MM and kept_mm <= MAX_STILL_DISTANCE_MM):
+        proposed_mm = distances.get(self._proposed or "", np.inf)
+        if not (active_mm - proposed_mm >= MIN_STILL_NEARER_MM and proposed_mm <= MAX_STILL_DISTANCE_MM):
             self._proposed = None
         # Compared with what is proposed, if anything is, so that two others do not alternate.
-        reference_mm = active_mm if self._proposed is None else min(active_mm, kept_mm)
+        reference_mm = active_mm if self._proposed is None else min(active_mm, proposed_mm)
         nearer_mm = reference_mm - distances[nearest]
         if nearer_mm >= MIN_NEARER_MM and distances[nearest] <= MAX_DISTANCE_MM:
             if self._candidate is None or self._candidate.name != nearest:

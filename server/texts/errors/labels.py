@@ -137,9 +137,9 @@ LABELS: Mapping[str, tuple[Text, ...]] = {
     ),
     "LEVEL_DOUBTFUL": (
         {
-            "en": "the pedicle is measured for {planned}, but its isthmus lies in the label {most}, {steps} "
-            "levels away",
-            "de": "der Pedikel ist für {planned} gemessen, aber seine Engstelle liegt im Label {most}, "
+            "en": "the pedicle is measured for {planned}, but its isthmus lies in the label {prevailing}, "
+            "{steps} levels away",
+            "de": "der Pedikel ist für {planned} gemessen, aber seine Engstelle liegt im Label {prevailing}, "
             "{steps} Höhen entfernt",
         },
         {
@@ -156,9 +156,9 @@ LABELS: Mapping[str, tuple[Text, ...]] = {
         },
         {
             "en": "the channel {channel} is planned for {planned}, but {share:.0f} % of its length lies in "
-            "the label {most}, {steps} levels away, and {own:.0f} % in {planned}",
+            "the label {prevailing}, {steps} levels away, and {own:.0f} % in {planned}",
             "de": "der Kanal {channel} ist für {planned} geplant, aber {share:.0f} % seiner Länge liegen im "
-            "Label {most}, {steps} Höhen entfernt, und {own:.0f} % in {planned}",
+            "Label {prevailing}, {steps} Höhen entfernt, und {own:.0f} % in {planned}",
         },
     ),
 }

@@ -135,28 +135,28 @@ def main() -> None:
     parser.add_argument("--sizes", nargs="+", default=SIZES, help="such as 1920x1080")
     parser.add_argument("--themes", nargs="+", default=THEMES, choices=THEMES)
     parser.add_argument("--languages", nargs="+", default=tuple(LOCALES), choices=LOCALES)
-    asked = parser.parse_args()
-    asked.to.mkdir(parents=True, exist_ok=True)
+    arguments = parser.parse_args()
+    arguments.to.mkdir(parents=True, exist_ok=True)
     pictures: dict[str, Sequence[Picture]] = {}
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium_path(), headless=True, args=list(FLAGS))
         for make, states in STAGES.values():
-            wanted = [state for state in states if asked.only in state.name]
+            wanted = [state for state in states if arguments.only in state.name]
             if not wanted:
                 continue
             with make() as stage:
                 photographers = [
-                    Photographer(browser, stage, theme, language, asked.to)
-                    for theme in asked.themes
-                    for language in asked.languages
+                    Photographer(browser, stage, theme, language, arguments.to)
+                    for theme in arguments.themes
+                    for language in arguments.languages
                 ]
                 for state in wanted:
-                    shown = [one for each in photographers for one in each.take(state, asked.sizes)]
+                    shown = [one for each in photographers for one in each.take(state, arguments.sizes)]
                     print_faults(state.name, shown)
                     pictures[state.name] = shown
         browser.close()
-    (asked.to / "index.html").write_text(contact_sheet(pictures), encoding="utf-8")
-    sys.stdout.write(f"{sum(map(len, pictures.values()))} screenshots in {asked.to}/index.html\n")
+    (arguments.to / "index.html").write_text(contact_sheet(pictures), encoding="utf-8")
+    sys.stdout.write(f"{sum(map(len, pictures.values()))} screenshots in {arguments.to}/index.html\n")
 
 
 if __name__ == "__main__":

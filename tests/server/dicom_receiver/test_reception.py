@@ -79,8 +79,8 @@ def test_a_title_that_is_not_allowed_is_refused(tmp_path: Path, title: str, call
 def test_what_is_no_ct_is_not_accepted(tmp_path: Path) -> None:
     mr, seg = "1.2.840.10008.5.1.4.1.1.4", "1.2.840.10008.5.1.4.1.1.66.4"
     with door(tmp_path) as opened:
-        refused = associated(opened.port, classes=(mr, seg))
-        assert not refused.is_established
+        rejected = associated(opened.port, classes=(mr, seg))
+        assert not rejected.is_established
         # And an object that says CT in the request only.
         association = associated(opened.port)
         other = made_ct().slices[0]
@@ -283,8 +283,8 @@ def test_senders_need_their_certificate_where_it_is_set(tmp_path: Path) -> None:
     settings = tls_settings(tmp_path / "own", client_ca=client)
     context = ssl.create_default_context(cafile=str(settings.certificate))
     with door(tmp_path / "inbox", settings=settings) as opened:
-        refused = associated(opened.port, tls=(context, "127.0.0.1"))
-        assert not refused.is_established
+        rejected = associated(opened.port, tls=(context, "127.0.0.1"))
+        assert not rejected.is_established
         context.load_cert_chain(client)
         association = associated(opened.port, tls=(context, "127.0.0.1"))
         assert sent(association, made_ct().slices[:1]) == [SUCCESS]

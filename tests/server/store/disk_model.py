@@ -37,7 +37,7 @@ class Disk:
     syncs: int = 0
     before_sync: Callable[[], None] = lambda: None
     _contents: dict[int, bytes] = field(default_factory=dict)
-    _held: dict[int, int] = field(default_factory=dict)
+    _descriptors: dict[int, int] = field(default_factory=dict)
     _entries: dict[int, dict[str, tuple[int, bool]]] = field(default_factory=dict)
 
     def sync(self, path: Path) -> None:
@@ -45,9 +45,9 @@ class Disk:
         if not self._has(path):
             return
         found = path.stat()
-        if found.st_ino not in self._held:
+        if found.st_ino not in self._descriptors:
             # An inode that is in use is not given to another file.
-            self._held[found.st_ino] = os.open(path, os.O_RDONLY)
+            self._descriptors[found.st_ino] = os.open(path, os.O_RDONLY)
         if stat.S_ISDIR(found.st_mode):
             self._entries[found.st_ino] = {
                 one.name: (one.stat().st_ino, one.is_dir())
@@ -66,7 +66,7 @@ class Disk:
 
     def close(self) -> None:
         """Release what is held of the folder."""
-        for descriptor in self._held.values():
+        for descriptor in self._descriptors.values():
             os.close(descriptor)
 
     def _has(self, path: Path) -> bool:
@@ -96,11 +96,11 @@ class Disk:
 
 def _torn(durable: bytes, written: bytes, rng: random.Random) -> bytes:
     """Return a content of which any sectors that were written since the last sync are there."""
-    kept_ratio = rng.choice((0.1, 0.5, 0.9))
+    persisted_ratio = rng.choice((0.1, 0.5, 0.9))
     length = rng.choice((len(durable), len(written)))
     sectors = []
     for at in range(0, length, SECTOR_BYTES):
-        source = written if rng.random() < kept_ratio else durable
+        source = written if rng.random() < persisted_ratio else durable
         sectors.append(source[at : at + SECTOR_BYTES].ljust(min(SECTOR_BYTES, length - at), b"\0"))
     return b"".join(sectors)
 
@@ -135,14 +135,14 @@ def _sqlite_recorded(disk: Disk) -> Iterator[None]:
     vfs = library.sqlite3_vfs_find(None)
     # Three integers, then pointers: next, name, data, xOpen.
     places = (ctypes.c_void_p * (X_OPEN + 1)).from_address(vfs)
-    real_open, kept = places[X_OPEN], []
+    real_open, callbacks = places[X_OPEN], []
     opened_really = OPENED(real_open)
 
     def opened(own: int, name: int | None, file: int, flags: int, out: int) -> int:
         # The name is passed on as a pointer, because the file keeps it.
         status = int(opened_really(own, name, file, flags, out))
         if status == 0 and name:
-            kept.append(_with_sync(file, Path(os.fsdecode(ctypes.string_at(name))), disk))
+            callbacks.append(_with_sync(file, Path(os.fsdecode(ctypes.string_at(name))), disk))
         return status
 
     replaced = OPENED(opened)

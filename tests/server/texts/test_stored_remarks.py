@@ -33,9 +33,9 @@ def stored(remark: Remark) -> object:
 
 def german(remark: Remark) -> tuple[str, str]:
     """Return message and remedy of a stored remark in German."""
-    told = worded(stored(remark), "de")
-    assert isinstance(told, dict)
-    return told["message"], told["remedy"]
+    localized = worded(stored(remark), "de")
+    assert isinstance(localized, dict)
+    return localized["message"], localized["remedy"]
 
 
 def bone_cut(*ends: str) -> Remark:
@@ -158,12 +158,12 @@ def test_all_warnings_of_a_document_are_worded_and_all_else_is_left_alone() -> N
         "vertebrae": [{"name": "L3", "pedicles": [{"warnings": [remark], "width_mm": 7.5}]}],
         "n": [1.5],
     }
-    told = worded(document, "de")
-    assert isinstance(told, dict)
-    (pedicle,) = told["vertebrae"][0]["pedicles"]
+    localized = worded(document, "de")
+    assert isinstance(localized, dict)
+    (pedicle,) = localized["vertebrae"][0]["pedicles"]
     assert pedicle["warnings"][0]["message"].startswith("der Knochen reicht")
     assert pedicle["width_mm"] == 7.5
-    assert told["n"] == [1.5]
+    assert localized["n"] == [1.5]
     assert document["vertebrae"][0]["pedicles"][0]["warnings"] == [remark]  # type: ignore[index]
 
 

@@ -67,8 +67,8 @@ def test_a_new_set_up_of_the_same_camera_keeps_it() -> None:
     for at_s, image in _images("base"):
         before.step(image, captured_at_s=at_s)
     assert before.focal_length.error is not None
-    kept = []
+    errors = []
     for after in (tracker(), tracker(focal_ratio=1.01), tracker(side_ratio=2.0)):
         after.focal_length.adopt(before.focal_length)
-        kept.append(after.focal_length.error)
-    assert kept == [before.focal_length.error, None, None]
+        errors.append(after.focal_length.error)
+    assert errors == [before.focal_length.error, None, None]

@@ -172,8 +172,8 @@ def test_a_label_without_canal_or_pedicle_gives_no_start() -> None:
     points = np.argwhere(np.ones(labels.labels.shape, dtype=bool))[:, ::-1]
     lps = labels.lps_from_index(points).reshape(*labels.labels.shape, 3)
 
-    def code(kept: npt.NDArray[np.bool_]) -> str:
-        changed = dataclasses.replace(labels, labels=labels.labels * kept.astype(np.uint8))
+    def code(visible: npt.NDArray[np.bool_]) -> str:
+        changed = dataclasses.replace(labels, labels=labels.labels * visible.astype(np.uint8))
         with pytest.raises(PlanError) as reported:
             pedicle_start_points(changed, "L3")
         return reported.value.code

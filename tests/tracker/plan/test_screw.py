@@ -194,7 +194,7 @@ def signed_distance_mm(x_mm: np.ndarray, z_mm: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    ("entry_xz_mm", "target_xz_mm", "least_depth_mm"),
+    ("entry_xz_mm", "target_xz_mm", "min_depth_mm"),
     [
         pytest.param((0.0, 0.0), (0.0, 0.0), None, id="on-the-axis"),
         pytest.param((-1.0, 0.5), (9.0, 6.0), 24.0, id="nearing-the-wall-and-through-it"),
@@ -203,7 +203,7 @@ def signed_distance_mm(x_mm: np.ndarray, z_mm: np.ndarray) -> np.ndarray:
     ],
 )
 def test_clearance_by_depth_is_the_distance_to_the_solid(
-    entry_xz_mm: tuple[float, float], target_xz_mm: tuple[float, float], least_depth_mm: float | None
+    entry_xz_mm: tuple[float, float], target_xz_mm: tuple[float, float], min_depth_mm: float | None
 ) -> None:
     channel = channel_from_points(
         "by hand",
@@ -219,9 +219,9 @@ def test_clearance_by_depth_is_the_distance_to_the_solid(
     assert points[[0, -1], 1] == pytest.approx([3.0, -9.0])
     assert np.diff(found.depth_mm).max() <= 0.5 + 1e-9
     assert found.clearance_mm == pytest.approx(signed_distance_mm(points[:, 0], points[:, 2]) - 2.5, abs=2e-3)
-    if least_depth_mm is not None:
+    if min_depth_mm is not None:
         along = float(channel.axis_in_vertebra @ FORWARDS)
-        assert found.min_depth_mm * along == pytest.approx(least_depth_mm, abs=1e-6)
+        assert found.min_depth_mm * along == pytest.approx(min_depth_mm, abs=1e-6)
     # The figures beside it and the grade are of the same walls.
     figures = clearance_of(channel, long, diameter_mm=5.0, length_mm=45.0)
     assert max(-found.min_mm, 0.0) == pytest.approx(figures.breach_mm, abs=1e-9)

@@ -39,7 +39,7 @@ def check_measure(labels: LabelVolume, vertebra: str, measure: PedicleMeasure) -
             CHECK_LEVEL,
             {
                 "planned": level,
-                "most": here,
+                "prevailing": here,
                 "steps": abs(LEVELS.index(here) - LEVELS.index(level)),
             },
         )

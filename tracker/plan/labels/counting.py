@@ -109,20 +109,20 @@ def check_channel(labels: LabelVolume, vertebra: str, channel: Channel) -> str:
     found = Counter(one for one in labels.level_at(points) if one)
     if not found:
         return ""
-    most, hits = found.most_common(1)[0]
-    if most == level or hits < MIN_SHARE * count:
+    prevailing, hits = found.most_common(1)[0]
+    if prevailing == level or hits < MIN_SHARE * count:
         return level if found[level] else ""
     share, own = 100.0 * hits / count, 100.0 * found[level] / count
-    steps = abs(LEVELS.index(most) - LEVELS.index(level))
+    steps = abs(LEVELS.index(prevailing) - LEVELS.index(level))
     raise PlanError(
         "LEVEL_DOUBTFUL",
         f"the channel {channel.name} is planned for {level}, but {share:.0f} % of its length lies in the "
-        f"label {most}, {steps} levels away, and {own:.0f} % in {level}",
+        f"label {prevailing}, {steps} levels away, and {own:.0f} % in {level}",
         CHECK_LEVEL,
         {
             "channel": channel.name,
             "planned": level,
-            "most": most,
+            "prevailing": prevailing,
             "steps": steps,
             "share": share,
             "own": own,

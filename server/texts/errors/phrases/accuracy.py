@@ -14,9 +14,12 @@ _FAULTS: tuple[Text, ...] = (
 ACCURACY: Mapping[str, tuple[Text, ...]] = {
     "fault_phrase": _FAULTS,
     "faults": tuple(
-        {"en": " or ".join(one["en"] for one in alike), "de": " oder ".join(one["de"] for one in alike)}
+        {
+            "en": " or ".join(one["en"] for one in candidates),
+            "de": " oder ".join(one["de"] for one in candidates),
+        }
         for count in (2, 3)
-        for alike in combinations(_FAULTS, count)
+        for candidates in combinations(_FAULTS, count)
     ),
     "plate_problem": (
         {"en": "a number is not finite or negative", "de": "eine Zahl ist nicht endlich oder negativ"},

@@ -18,7 +18,7 @@ export function accuracyText(state: AccuracyTestMessage, texts: Texts): string {
     return interpolate(holds[due.posture] ?? texts.other, { ...due });
   }
   // Without a figure nothing is promised.
-  if (problems.length > 0 || error_95_mm === null) return texts.refused;
+  if (problems.length > 0 || error_95_mm === null) return texts.rejected;
   return interpolate(texts.complete, { mm: formatNumber(error_95_mm, 2) });
 }
 

@@ -28,14 +28,14 @@ export function useLinkedInstants(names: readonly [string, string]): LinkedInsta
   const second = useShownInstant(names[1], numbers[1]);
   const leading = leader === 0 ? first : second;
   const leaderAtS = leading.shown.instant?.at_s ?? null;
-  const follower = names[leader === 0 ? 1 : 0];
+  const other = names[leader === 0 ? 1 : 0];
   useEffect(() => {
     if (offsetS === null || leaderAtS === null) return;
     const stop = new AbortController();
     const follow = async (): Promise<void> => {
       const atS = Math.max(leader === 0 ? leaderAtS + offsetS : leaderAtS - offsetS, 0);
       try {
-        const path = { name: follower };
+        const path = { name: other };
         const { number } = await getRecordingsByNameNearest({
           path,
           query: { at_s: atS },
@@ -52,7 +52,7 @@ export function useLinkedInstants(names: readonly [string, string]): LinkedInsta
     return () => {
       stop.abort();
     };
-  }, [leader, leaderAtS, offsetS, follower]);
+  }, [leader, leaderAtS, offsetS, other]);
   const side = (place: 0 | 1, { shown, isLoading }: typeof first): LinkedSide => ({
     number: numbers[place],
     shown,

@@ -46,7 +46,7 @@ export const certificateDe: CertificateTexts = {
     other: "Mulde {divot}, {posture}, {placement}: die Spitze hineinhalten, dann aufnehmen.",
     looking: "Mulde {divot}: stillhalten. {seen} von {images} Bildern mit der Spitze.",
     complete: "Alle Aufnahmen sind gemacht: nichts spricht gegen ein Zertifikat über {mm} mm.",
-    refused: "Alle Aufnahmen sind gemacht, und der Test ist nicht bestanden:",
+    rejected: "Alle Aufnahmen sind gemacht, und der Test ist nicht bestanden:",
     progress: "{taken} von {planned} Aufnahmen",
     last: "Letzte Aufnahme, Mulde {divot}: Zittern {mm} mm und {deg}° in {images} Bildern",
     capture: "Aufnehmen",

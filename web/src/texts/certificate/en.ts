@@ -43,7 +43,7 @@ export const certificateEn = {
     other: "Divot {divot}, {posture}, {placement}: hold the tip in it, then capture.",
     looking: "Divot {divot}: hold still. {seen} of {images} images with the tip.",
     complete: "All captures are taken: nothing speaks against a certificate of {mm} mm.",
-    refused: "All captures are taken, and the test is refused:",
+    rejected: "All captures are taken, and the test is refused:",
     progress: "{taken} of {planned} captures",
     last: "Last capture, divot {divot}: jitter {mm} mm and {deg}° in {images} images",
     capture: "Capture",

@@ -131,7 +131,7 @@ export const planDe: PlanTexts = {
       inferior: "Kaudal",
       anterior: "Vorn",
     },
-    least: "Kleinster Abstand",
+    minimum: "Kleinster Abstand",
     atDepth: "in der Tiefe",
     against: {
       pedicle: "zur gemessenen Wand des Pedikels",

@@ -128,7 +128,7 @@ export const planEn = {
       inferior: "Caudal",
       anterior: "Anterior",
     },
-    least: "Least clearance",
+    minimum: "Least clearance",
     atDepth: "at a depth of",
     against: {
       pedicle: "to the pedicle's measured wall",

@@ -28,7 +28,7 @@ export const slicesDe: SlicesTexts = {
         "Nicht vollständig: der Absender ist nicht fertig. Bei abgebrochener Verbindung erneut senden.",
       take: "Diese verwenden",
       discard: "Verwerfen",
-      refused: "Zuletzt abgelehnt",
+      rejected: "Zuletzt abgelehnt",
     },
     series: {
       title: "Welche Serie?",

@@ -26,7 +26,7 @@ export const slicesEn = {
       incomplete: "Not complete: the sender has not finished. Send it again if its connection broke.",
       take: "Use this one",
       discard: "Discard",
-      refused: "Last refused",
+      rejected: "Last refused",
     },
     series: {
       title: "Which series?",

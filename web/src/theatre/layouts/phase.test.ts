@@ -5,7 +5,7 @@ import { headline, figure, assessment } from "../../live/figureBuilders";
 import { snapshot } from "../../live/builders";
 import { readingOf } from "../../live/reading";
 import type { Layout } from "./layout";
-import { PhaseFollower, phaseOf } from "./phase";
+import { PhaseDetector, phaseOf } from "./phase";
 
 test.each<[string, number, number, Layout, string]>([
   ["far above the entry", -50, 3, "overview", "approach"],
@@ -39,9 +39,9 @@ const QUIET = { known: true, alarms: alarms() } as const;
 const WITHHELD: NumbersVerdict = { live: false, cause: "unread", unread: null, ageMs: 0 };
 
 test("follows the drill only after it has stayed in its phase", () => {
-  const follower = new PhaseFollower();
+  const detector = new PhaseDetector();
   const update = (nowMs: number, depth: number) =>
-    follower.update({ nowMs, numbers: at(depth), alarms: QUIET }, "align");
+    detector.update({ nowMs, numbers: at(depth), alarms: QUIET }, "align");
   expect(update(0, 5)).toBeNull();
   expect(update(900, 5)).toBeNull();
   // Withdrawn in between: the time counts from the next entry.
@@ -52,10 +52,10 @@ test("follows the drill only after it has stayed in its phase", () => {
 });
 
 test("follows a drill outside the bone, where there is no wall", () => {
-  const follower = new PhaseFollower();
+  const detector = new PhaseDetector();
   const numbers = at(-50, 1, figure(null, { status: "outside" }));
-  follower.update({ nowMs: 0, numbers, alarms: QUIET }, "overview");
-  expect(follower.update({ nowMs: 1000, numbers, alarms: QUIET }, "overview")).toBe("approach");
+  detector.update({ nowMs: 0, numbers, alarms: QUIET }, "overview");
+  expect(detector.update({ nowMs: 1000, numbers, alarms: QUIET }, "overview")).toBe("approach");
 });
 
 test.each([
@@ -64,9 +64,9 @@ test.each([
   ["figures are withheld", WITHHELD, QUIET],
   ["a figure is missing", at(5, null), QUIET],
 ] as const)("changes nothing while %s", (_what, numbers, alarms) => {
-  const follower = new PhaseFollower();
-  follower.update({ nowMs: 0, numbers: at(5), alarms: QUIET }, "align");
-  expect(follower.update({ nowMs: 5000, numbers, alarms }, "align")).toBeNull();
+  const detector = new PhaseDetector();
+  detector.update({ nowMs: 0, numbers: at(5), alarms: QUIET }, "align");
+  expect(detector.update({ nowMs: 5000, numbers, alarms }, "align")).toBeNull();
   // What came before does not count.
-  expect(follower.update({ nowMs: 5050, numbers: at(5), alarms: QUIET }, "align")).toBeNull();
+  expect(detector.update({ nowMs: 5050, numbers: at(5), alarms: QUIET }, "align")).toBeNull();
 });

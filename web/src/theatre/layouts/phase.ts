@@ -30,7 +30,7 @@ interface Moment {
 }
 
 /** Chooses the layout by the drill; never while an alarm is listed or unknown, or a figure is missing. */
-export class PhaseFollower {
+export class PhaseDetector {
   private candidate: { phase: Phase; sinceMs: number } | null = null;
 
   /** Returns the layout to change to, or null. */

@@ -51,12 +51,12 @@ function readKeys(value: unknown): Keys {
   const keys: Keys = {};
   for (const action of KEY_ACTIONS) {
     const code = stored[action];
-    if (typeof code === "string" && isAssignable({ ...NOT_HELD, code })) keys[action] = code;
+    if (typeof code === "string" && isAssignable({ ...NO_MODIFIER, code })) keys[action] = code;
   }
   return keys;
 }
 
-const NOT_HELD = { repeat: false, altKey: false, ctrlKey: false, metaKey: false };
+const NO_MODIFIER = { repeat: false, altKey: false, ctrlKey: false, metaKey: false };
 
 function recordOf(value: unknown): Record<string, unknown> {
   return typeof value === "object" && value !== null ? { ...value } : {};

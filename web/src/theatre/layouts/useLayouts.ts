@@ -4,7 +4,7 @@ import { alarmsVerdict } from "../../alarms/verdict";
 import { usePainter } from "../../live/LiveContext";
 import { layoutInAddress, type Layout } from "./layout";
 import { layoutByKey, type Keys } from "./keys";
-import { PhaseFollower } from "./phase";
+import { PhaseDetector } from "./phase";
 import { storedLayout, storeLayout, type LayoutChoice } from "./storedLayout";
 
 export interface Layouts {
@@ -24,7 +24,7 @@ export function useLayouts(hasLayouts: boolean): Layouts {
     const layout = layoutInAddress(location.search);
     return layout === null ? stored : { ...stored, layout, isAutomatic: false };
   });
-  const [follower] = useState(() => new PhaseFollower());
+  const [detector] = useState(() => new PhaseDetector());
   const change = (changes: Partial<LayoutChoice>): void => {
     const next = { ...choice, ...changes };
     storeLayout(next);
@@ -37,7 +37,7 @@ export function useLayouts(hasLayouts: boolean): Layouts {
   usePainter((view) => {
     if (!hasLayouts || !choice.isAutomatic) return;
     const alarms = alarmsVerdict(view, view.firstMessage === "received");
-    const layout = follower.update({ ...view, alarms }, choice.layout);
+    const layout = detector.update({ ...view, alarms }, choice.layout);
     if (layout !== null) change({ layout });
   });
   useKeys((event) => {

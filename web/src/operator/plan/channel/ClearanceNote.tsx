@@ -22,7 +22,7 @@ export function ClearanceNote({ vertebra, side }: { vertebra: string; side: Side
   return (
     <div className="clearance-note">
       <p data-testid="clearance" data-clearance={levelOf(clearance.min_mm, clearances.marginMm)}>
-        {texts.least} <strong>{formatNumber(clearance.min_mm, 1)} mm</strong> {texts.atDepth}{" "}
+        {texts.minimum} <strong>{formatNumber(clearance.min_mm, 1)} mm</strong> {texts.atDepth}{" "}
         {formatNumber(clearance.min_depth_mm, 0)} mm, {texts.against[clearance.against]}
       </p>
       <ul className="clearance-legend" aria-label={texts.legend}>

@@ -69,7 +69,7 @@ export function ReceivedList({ onBegun }: ReceivedListProps): ReactNode {
         ))}
       </ul>
       {remark !== null && (
-        <Alert className="warning" title={texts.refused}>
+        <Alert className="warning" title={texts.rejected}>
           {sentence(remark.message)}. {remark.remedy} <code>{remark.code}</code>
         </Alert>
       )}

@@ -62,6 +62,6 @@ test.each([
   ["z", {}, null],
   ["y", { ctrlKey: true, altKey: true }, null],
   ["a", { ctrlKey: true }, null],
-] as const)("%s with %j is %s", (key, held, meaning) => {
-  expect(historyKey({ ...NONE, ...held, key })).toBe(meaning);
+] as const)("%s with %j is %s", (key, modifiers, meaning) => {
+  expect(historyKey({ ...NONE, ...modifiers, key })).toBe(meaning);
 });
