@@ -29,7 +29,8 @@ MAX_STEPS, MORE_STEPS = (8, 10, 20), 80
 SETTLED, MORE_ROUNDS, MIN_WAIST = 0.15, 2, 0.02
 # Only with a low misfit: otherwise a moving window converges on adjacent bone.
 MAX_MISFIT_RATIO = 0.04
-OUTSIDE_BAND_MM = 1.2
+# Voxels outside of the wall are used within this band, and as many standard deviations of its blur.
+OUTSIDE_BAND_MM, BAND_SDS = 1.2, 2.2
 MIN_VOXELS = 60
 MAX_PART_MM = 0.8
 COARSE_SD_DEG = 4.0
@@ -198,33 +199,39 @@ def _samples(
     max_samples: int,
 ) -> tube_model.Samples:
     """Return the voxels of the window in the bar, or in a thin band around it without other bone."""
-    points, hu = _voxels(near, origin, half)
+    sides = near.lps_from_index[:3, :3]
+    section = tube_model.section_at(parameters, np.linspace(-1.0, 1.0, 5))
+    widest_mm = np.maximum(section.half_width_mm, section.half_height_mm) * (
+        1.0 + np.abs(parameters[tube_model.SHAPE]).sum()
+    )
+    blur_mm = np.exp(parameters[tube_model.BLUR])
+    max_band_mm = OUTSIDE_BAND_MM + BAND_SDS * np.hypot(np.linalg.norm(sides) / np.sqrt(12.0), blur_mm)
+    reach_mm = float((np.hypot(section.x_mm, section.y_mm) + widest_mm).max() + max_band_mm)
+    points, hu = _voxels(near, origin, frame, half, reach_mm)
     local = (points - origin) @ frame.T
     along = local[:, 0] / half
     distance, angle = tube_model.wall_distance_mm(parameters, along, local[:, 1:])
     a, b = np.exp(parameters[tube_model.AXES][:2])
     normal = np.stack([np.cos(angle) / a, np.sin(angle) / b], axis=1)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    beside = np.stack([-normal[:, 1], normal[:, 0]], axis=1)
     roll = parameters[tube_model.AXES][2]
     turn = np.array([[np.cos(roll), np.sin(roll)], [-np.sin(roll), np.cos(roll)]])
-    sides_mm, beside_mm = (near.voxel_width_mm((way @ turn) @ frame[1:]) for way in (normal, beside))
-    box_mm2 = (sides_mm**2).sum(axis=1) / 12.0
-    parts, offsets = _parts(near, frame, half)
-    sides_mm, beside_mm = sides_mm / parts, beside_mm / parts
-    part_mm2 = (sides_mm**2).sum(axis=1) / 12.0
-    widest_mm = sides_mm.max(axis=1)
-    slices = np.cross(near.lps_from_index[:3, 0], near.lps_from_index[:3, 1])
-    through = ((normal @ turn) @ frame[1:] @ (slices / np.linalg.norm(slices))) ** 2
-    band = OUTSIDE_BAND_MM + 2.2 * np.sqrt(box_mm2 + np.exp(2.0 * parameters[tube_model.BLUR]))
-    used = (np.abs(along) <= 1.0) & (distance < band) & ~_open(bar, points)
-    rows = np.flatnonzero(used)
+    normal = (normal @ turn) @ frame[1:]
+    box_mm2 = (near.voxel_width_mm(normal) ** 2).sum(axis=1) / 12.0
+    rows = np.flatnonzero(distance < OUTSIDE_BAND_MM + BAND_SDS * np.sqrt(box_mm2 + blur_mm**2))
+    rows = rows[~_open(bar, points[rows])]
     if len(rows) > max_samples:
         rows = np.random.default_rng(1).choice(rows, max_samples, replace=False)
-    columns = [along, local[:, 1], local[:, 2], widest_mm, part_mm2 - widest_mm**2 / 12.0]
-    columns += [(beside_mm**2).sum(axis=1) / 12.0, through]
+    normal = normal[rows]
+    parts, offsets = _parts(near, frame, half)
+    part_mm = near.voxel_width_mm(normal) / parts
+    beside_mm = near.voxel_width_mm(np.cross(frame[0], normal)) / parts
+    slices = np.cross(sides[:, 0], sides[:, 1])
+    columns = [along[rows], local[rows, 1], local[rows, 2], part_mm.max(axis=1)]
+    columns += [(part_mm**2).sum(axis=1) / 12.0 - columns[3] ** 2 / 12.0, (beside_mm**2).sum(axis=1) / 12.0]
+    columns += [(normal @ (slices / np.linalg.norm(slices))) ** 2]
     return tube_model.Samples(
-        rows=np.ascontiguousarray(np.stack(columns, axis=1)[rows]), offsets=offsets, hu=hu[rows]
+        rows=np.ascontiguousarray(np.stack(columns, axis=1)), offsets=offsets, hu=hu[rows]
     )
 
 
@@ -240,8 +247,13 @@ def _parts(near: Neighbourhood, frame: Array, half: float) -> tuple[Array, Array
     return parts, np.ascontiguousarray(offsets / [half, 1.0, 1.0])
 
 
-def _voxels(near: Neighbourhood, origin: Array, half: float) -> tuple[Array, Array]:
-    reach = np.linalg.norm(np.linalg.inv(near.lps_from_index[:3, :3]), axis=1) * (half + 16.0)
+def _voxels(
+    near: Neighbourhood, origin: Array, frame: Array, half: float, reach_mm: float
+) -> tuple[Array, Array]:
+    """Return points (n, 3) and HU (n,) of the voxels in a cylinder along the first axis of the frame."""
+    inverse = np.linalg.inv(near.lps_from_index[:3, :3])
+    along, *across = np.abs(inverse @ frame.T).T
+    reach = along * half + np.hypot(*across) * reach_mm
     middle = near.index_of(origin)
     last_index = np.array(near.block.shape[::-1]) - 1
     low = np.clip(np.floor(middle - reach), 0, last_index).astype(int)
@@ -250,7 +262,8 @@ def _voxels(near: Neighbourhood, origin: Array, half: float) -> tuple[Array, Arr
     index = np.stack([i.ravel(), j.ravel(), k.ravel()], axis=1)
     points = index @ near.lps_from_index[:3, :3].T + near.lps_from_index[:3, 3]
     hu = near.block[low[2] : high[2] + 1, low[1] : high[1] + 1, low[0] : high[0] + 1].ravel()
-    close = ((points - origin) ** 2).sum(axis=1) < (half + 16.0) ** 2
+    local = (points - origin) @ frame.T
+    close = (np.abs(local[:, 0]) <= half) & (np.hypot(local[:, 1], local[:, 2]) < reach_mm)
     return points[close], hu[close].astype(np.float64)
 
 
