@@ -13,6 +13,14 @@ import numpy.typing as npt
 import scipy
 
 from tracker.geometry import Array
+from tracker.plan.edge_model import (
+    BLUR_SD_LOG,
+    CORTEX_SD_HU,
+    LOCAL_BLUR_LOG,
+    LOCAL_CORTEX_RATIO,
+    USUAL_CORTEX_HU,
+    Imaging,
+)
 from tracker.plan.pedicle import tube_model
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import planes_across
@@ -112,6 +120,25 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, fixed_axis: bool = False) -> Fitte
 def voxel_across_mm(near: Neighbourhood, fitted: FittedBar) -> float:
     """Return the size of a voxel across the bar, from side to side."""
     return float(np.linalg.norm(near.voxel_width_mm(fitted.left)))
+
+
+def imaging_of(near: Neighbourhood, fitted: FittedBar, axis: Array) -> Imaging:
+    """Return HU of the cortex and blur along an axis, from the fit and what is usual, by their variances."""
+    p, variance = fitted.parameters, np.diag(fitted.covariance)
+    cortex_share = 1.0 / (1.0 + variance[tube_model.CORTEX] / CORTEX_SD_HU**2)
+    cortex_hu = USUAL_CORTEX_HU + cortex_share * (p[tube_model.CORTEX] - USUAL_CORTEX_HU)
+    local_hu = LOCAL_CORTEX_RATIO * (cortex_hu - near.tissue_hu)
+    slices = np.cross(near.lps_from_index[:3, 0], near.lps_from_index[:3, 1])
+    through = float((axis @ slices / np.linalg.norm(slices)) ** 2)
+    blur_mm2 = np.exp(2.0 * p[tube_model.BLURS]) @ [1.0 - through, through]
+    return Imaging(
+        cortex_hu=float(cortex_hu),
+        cortex_sd_hu=float(np.hypot(np.sqrt(1.0 - cortex_share) * CORTEX_SD_HU, local_hu)),
+        blur_mm=float(np.sqrt(blur_mm2)),
+        blur_sd_log=float(np.hypot(min(np.sqrt(variance[tube_model.BLUR]), BLUR_SD_LOG), LOCAL_BLUR_LOG)),
+        tissue_hu=near.tissue_hu,
+        noise_hu=near.noise_hu,
+    )
 
 
 def narrowest(fitted: FittedBar) -> float:

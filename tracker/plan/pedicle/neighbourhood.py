@@ -123,7 +123,8 @@ def _smoothed(block: npt.NDArray[np.float32], sigma: Array) -> npt.NDArray[np.fl
     for one, out in zip(block, within, strict=True):
         cv2.sepFilter2D(one, -1, x, y, dst=out, borderType=cv2.BORDER_REFLECT)
     columns = within.reshape(len(block), -1)
-    return cv2.sepFilter2D(columns, -1, np.ones(1), z, borderType=cv2.BORDER_REFLECT).reshape(block.shape)
+    across = cv2.sepFilter2D(columns, -1, np.ones(1), z, borderType=cv2.BORDER_REFLECT)
+    return np.asarray(across, dtype=np.float32).reshape(block.shape)
 
 
 def _near(block: npt.NDArray[np.float32], affine: Array, centre: Array) -> Array:
