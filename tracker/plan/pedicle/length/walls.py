@@ -35,9 +35,7 @@ NO_FRONT_FROM_MM = 24.0
 LEFT_DEPTH_MM, LEFT_FROM_MM, LEFT_FOR_MM = 1.0, 0.3, 2.0
 # Bone that extends this far behind the arch is a process; its end is uncertain by more than a voxel.
 PROCESS_MM, ARCH_SD_MM = 2.5, 1.5
-# Lower bound of the cosine between axis and normal where a distance along the normal is converted.
-MIN_FACED_RATIO = 0.3
-# A wall met at less than this cosine of its normal is not certainly the one where the line ends.
+# Minimum cosine between the line and the normal of a wall that is fitted.
 MIN_PLANE_RATIO = 0.5
 
 
@@ -142,15 +140,21 @@ def _wall(
             distance_mm=distance, found=False, outwards=direction, faced_ratio=1.0, sd_mm=WALL_SD_MM
         )
     outwards = solid.outwards_at(isthmus_mm + distance * direction)
-    moved_mm, sd_mm = _edge_mm(near, imaging, isthmus_mm + distance * direction, outwards)
     faced = float(outwards @ direction)
-    grazing_sd_mm = _grazing_sd_mm(solid, isthmus_mm, direction, distance, faced, coarsest_mm(near))
+    # A wall met more obliquely is not certainly the one where the line ends.
+    moved_mm, sd_mm = (
+        _edge_mm(near, imaging, isthmus_mm + distance * direction, outwards)
+        if faced >= MIN_PLANE_RATIO
+        else (0.0, WALL_SD_MM)
+    )
+    plane_ratio = max(faced, MIN_PLANE_RATIO)
+    grazing_sd_mm = _grazing_sd_mm(solid, isthmus_mm, direction, distance, plane_ratio, coarsest_mm(near))
     return WallAhead(
-        distance_mm=distance + moved_mm / max(faced, MIN_FACED_RATIO),
+        distance_mm=distance + moved_mm / plane_ratio,
         found=True,
         outwards=outwards,
         faced_ratio=faced,
-        sd_mm=float(np.hypot(sd_mm / max(faced, MIN_FACED_RATIO), grazing_sd_mm)),
+        sd_mm=float(np.hypot(sd_mm / plane_ratio, grazing_sd_mm)),
     )
 
 
@@ -209,14 +213,14 @@ def _grazing_sd_mm(
     isthmus_mm: Array,
     direction: Array,
     distance_mm: float,
-    faced_ratio: float,
+    plane_ratio: float,
     voxel_mm: float,
 ) -> float:
     """Return the sd of an exit that the line approaches along a surface, as of the arch beside a facet.
 
     The surface of the solid is uncertain by up to a voxel, and a narrower recess is filled. Moved by a voxel,
-    it ends the line elsewhere; the range beyond that of a plane wall met at up to 60 degrees to its normal is
-    the uncertainty.
+    it ends the line elsewhere; the range beyond that of a plane wall with this cosine between line and
+    normal is the uncertainty.
     """
     along = np.arange(0.0, MAX_DISTANCE_MM, STEP_MM)
     depth = solid.depth_at(isthmus_mm + along[:, None] * direction)
@@ -233,7 +237,7 @@ def _grazing_sd_mm(
     if not len(outside):
         return 0.0
     range_mm = (exit_step + int(outside[0]) - int(inside[-1])) * STEP_MM
-    return max(0.0, 0.5 * range_mm - level_mm / max(faced_ratio, MIN_PLANE_RATIO))
+    return max(0.0, 0.5 * range_mm - level_mm / plane_ratio)
 
 
 def _fall_near(near: Neighbourhood, isthmus_mm: Array, direction: Array, exit_mm: float) -> float:
