@@ -44,6 +44,9 @@ MAX_PART_MM = 0.8
 COARSE_SD_DEG = 4.0
 # Scale of the robust loss: bone is not homogeneous.
 MIN_SCALE_HU, SCALE_RATIO = 12.0, 0.06
+# Sd of the change of the log thickness around the wall: a medial wall is two or three times as thick as the
+# lateral one.
+AROUND_SD_LOG = 0.3
 # Noise correlates between neighbouring voxels only; model errors correlate over a few millimetres.
 SIMILAR_VOXELS, SIMILAR_MM3 = 2.0, 20.0
 _FIXED_SLOPES: Array = np.array([0.0, 0.0, 0.02])
@@ -56,8 +59,8 @@ class FittedBar:
     Attributes:
         origin_mm: (3,), LPS; axis, left and up are unit (3,).
         half_mm: half the length of the window.
-        parameters: (27,), see `tube_model`.
-        covariance: (27, 27).
+        parameters: (29,), see `tube_model`.
+        covariance: (29, 29).
         residual_hu: robust standard deviation of the residuals.
         misfit_ratio: residual beyond noise as a ratio of the contrast of bone: deviation from the bar model.
         fitted: whether the fit converged; if not, these are the coarse values.
@@ -383,6 +386,7 @@ def _expected(near: Neighbourhood, start: Array, slopes: Array) -> tuple[Array, 
     centre[tube_model.CORTEX] = near.cortex_hu
     width[tube_model.CORTEX] = max(0.25 * (near.cortex_hu - near.tissue_hu), 30.0)
     centre[tube_model.THICKNESS], width[tube_model.THICKNESS] = np.log(1.3), 0.7
+    width[tube_model.AROUND] = AROUND_SD_LOG
     centre[tube_model.MARROW], width[tube_model.MARROW] = start[tube_model.MARROW], 400.0
     centre[tube_model.BLURS], width[tube_model.BLURS] = np.log(_usual_blur_mm(near)), 0.6
     centre[tube_model.OUTSIDE] = [near.tissue_hu, 0.0, 0.0, 0.0, 0.0]
@@ -400,6 +404,7 @@ def _bounds(start: Array) -> tuple[Array, Array]:
     low[tube_model.GROWTH], high[tube_model.GROWTH] = -0.7, 1.5
     low[tube_model.SHAPE], high[tube_model.SHAPE] = -0.2, 0.2
     low[tube_model.THICKNESS], high[tube_model.THICKNESS] = np.log(0.25), np.log(8.0)
+    low[tube_model.AROUND], high[tube_model.AROUND] = -1.0, 1.0
     low[tube_model.BLURS], high[tube_model.BLURS] = np.log(0.05), np.log(1.5)
     return low, high
 
