@@ -96,7 +96,7 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     rejections.reject_without_canal(isthmus, beyond_mm, max_beyond_mm(near))
     warnings += canal_remarks(beyond_mm, usual_beyond_mm(near))
     min_mm = min(isthmus.width_mm, isthmus.height_mm)
-    if min_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
+    if min_mm < FEW_VOXELS * voxel_across_mm(near, fitted)[0] or not fitted.fitted:
         isthmus = _agreed(near, solid, seed, named, isthmus)
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
 
