@@ -33,6 +33,8 @@ MAX_VOXELS = (900, 1200, 3500)
 # pulls the fit away over many steps. If the misfit of the first round is high, as for walls of high contrast,
 # MORE_STEPS are tried, and used if the misfit is then low.
 MAX_STEPS, MORE_STEPS = (8, 10, 20), 80
+# A step that lowers the loss by less is the last one; the rest is far below the stated errors.
+MIN_GAIN_RATIO = 1e-4
 # If the narrowest section is farther than this from the window's centre, the window is moved again.
 SETTLED, MORE_ROUNDS, MIN_WAIST = 0.15, 2, 0.02
 # Only with a low misfit: otherwise a moving window converges on adjacent bone.
@@ -99,7 +101,7 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, fixed_axis: bool = False) -> Fitte
             break
         slopes = _FIXED_SLOPES if fixed_axis else _coarse_slopes(bar, axis, left, up, half)
         solved = _solve(near, samples, half, parameters, slopes, MAX_STEPS[round_number])
-        if fitted is None and _misfit_ratio(near, solved[2]) > MAX_MISFIT_RATIO:
+        if fitted is None and not fixed_axis and _misfit_ratio(near, solved[2]) > MAX_MISFIT_RATIO:
             ended = _solve(near, samples, half, solved[0], slopes, MORE_STEPS)
             solved = ended if _misfit_ratio(near, ended[2]) <= MAX_MISFIT_RATIO else solved
         parameters, covariance, residual, done = solved
@@ -355,6 +357,7 @@ def _solve(
         loss="soft_l1",
         x_scale=np.minimum(width, 50.0),
         max_nfev=max_steps,
+        ftol=MIN_GAIN_RATIO,
     )
     off, slopes_hu = modelled(result.x.tobytes())
     off = off - samples.hu
