@@ -75,10 +75,10 @@ def theatre(theatre: Theatre) -> Theatre:
     return theatre
 
 
-def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
+def slowed(watched: WatchedPage, part: str) -> Page:
     """The page after all reductions. It is slow only once its scene is drawn."""
     watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW[part]} }})()")
-    page = watched.open(f"theatre{query}")
+    page = watched.open("theatre")
     show_scene(page)
     page.wait_for_function("() => given.some(([what]) => what === 'scale')")
     page.evaluate("slow = true")
@@ -118,9 +118,13 @@ def test_a_device_that_decodes_slowly_keeps_its_picture_longest_and_its_scene_li
     assert shown == pytest.approx(1.0, abs=0.02)
 
 
-def test_a_device_that_draws_slowly_keeps_its_picture_longest(theatre: Theatre, watch: Watch) -> None:
-    page = slowed(watch(theatre, 1280, 900), "drawing", query="?lang=de")
-    gave_way_in_order(page, "Langsames Zeichnen")
+def test_a_device_that_draws_slowly_says_so_with_its_picture_at_half_size(
+    theatre: Theatre, watch: Watch
+) -> None:
+    watched = watch(theatre, 1280, 900)
+    watched.page.add_init_script(f"window.slow = true; {SLOW['drawing']}")
+    page = watched.open("theatre?lang=de")
+    expect(page.get_by_test_id("line-note")).to_have_text(re.compile("Langsames Zeichnen: .* 640x360"))
 
 
 def test_a_scene_that_makes_the_figures_late_is_switched_off_until_somebody_asks_for_it(

@@ -44,7 +44,7 @@ SETTINGS = {
         "rate_hz": 10,
         "skill": "good",
         # On a busy machine a page learns late that the tip rests, and captures late.
-        "rest_s": 4.0,
+        "rest_s": 2.5,
     },
     # A busy machine delivers few images; other tests check how still the tip must be.
     "registration": {
