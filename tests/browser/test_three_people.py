@@ -34,6 +34,8 @@ SETTINGS = {
     "security": {"sign_in": "required"},
     "supervision": {"cosign": {"plan": "required", "registration": "required"}},
     "reference": {"marker": "reference"},
+    # The driver of the browser is sent a copy of each picture.
+    "video": {"jpeg_quality": 40},
     "rehearsal": {
         "seed": 3,
         "provides_setup": False,
