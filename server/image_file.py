@@ -1,7 +1,7 @@
 """Decode images identically for calibration and tracking.
 
-A JPEG with a gap decodes to shifted blocks. libjpeg notices that and only warns, which OpenCV does not pass on;
-`decode_jpeg` rejects the image.
+A JPEG with a gap decodes to shifted blocks. libjpeg notices that and only warns, which OpenCV does not pass
+on; `decode_jpeg` rejects the image.
 """
 
 from dataclasses import dataclass

@@ -24,7 +24,13 @@ import structlog
 
 from server.capture.address import SourceAddress
 from server.capture.backlog import Backlog
-from server.capture.codecs import OPEN_TIMEOUT_MS, READ_TIMEOUT_MS, is_predicted, open_stream
+from server.capture.codecs import (
+    OPEN_TIMEOUT_MS,
+    READ_TIMEOUT_MS,
+    is_predicted,
+    open_stream,
+    set_jpeg_packets,
+)
 from server.capture.damaged_images import DamagedImages
 from server.capture.device_clock import DeviceClock
 from server.capture.driver_clock import DriverClock
@@ -111,10 +117,7 @@ class StreamSource:
             )
         images = float(stream.get(cv2.CAP_PROP_FRAME_COUNT))
         self._is_file = math.isfinite(images) and images > 0
-        # OpenCV silently scales images that change their size in a stream to the first size; for JPEG it can
-        # return the packets.
-        is_jpeg = int(stream.get(cv2.CAP_PROP_FOURCC)) == cv2.VideoWriter.fourcc(*"MJPG")
-        self._is_jpeg = is_jpeg and not self._is_file and bool(stream.set(cv2.CAP_PROP_FORMAT, -1))
+        self._is_jpeg = set_jpeg_packets(stream)
         self._is_predicted = is_predicted(stream)
         self._pacer.restart()
         self._backlog.restart()

@@ -104,6 +104,13 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "de": "der Videostrom {stream} ist erreichbar, sendete aber {timeout_s:g} s lang kein Video",
         },
     ),
+    "VIDEO_IMAGES_DAMAGED": (
+        {
+            "en": "{damaged_images} of {images} images of {file} are damaged and not used ({library_error})",
+            "de": "{damaged_images} von {images} Bildern von {file} sind beschädigt und werden nicht "
+            "verwendet ({library_error})",
+        },
+    ),
     "VIDEO_FILE_CUT": (
         {
             "en": "the video file {file} ends after {images} of {claimed_images} images",
