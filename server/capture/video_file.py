@@ -98,7 +98,7 @@ class VideoFileSource:
             if not good or content is None:
                 return None, 0.0
             time_s = self._time_s(self._video)
-            image = np.asarray(content)
+            image = np.asarray(content, dtype=np.uint8)
             decoded = decode_jpeg(image) if self._is_jpeg else image
             if not isinstance(decoded, DamagedJpeg):
                 return decoded, time_s

@@ -121,7 +121,7 @@ def test_an_intact_jpeg_has_the_pixels_of_opencv(content: bytes) -> None:
         pytest.param(JPEG.replace(b"\x01\xe0\x02\x80", b"\xff\xdc\xff\xdc"), "allowed", id="too-large"),
     ],
 )
-def test_a_damaged_jpeg_is_rejected_where_opencv_shows_it(content: bytes, reason: str) -> None:
+def test_a_damaged_jpeg_is_rejected_with_the_reason(content: bytes, reason: str) -> None:
     image = decode_jpeg(content)
     assert isinstance(image, DamagedJpeg)
     assert reason in image.reason
