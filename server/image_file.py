@@ -17,6 +17,7 @@ import simplejpeg
 from server import MAX_IMAGE_PIXELS
 
 JPEG_START = b"\xff\xd8\xff"
+START_OF_SCAN = b"\xff\xda"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,7 +39,17 @@ def decode_jpeg(
     The pixels are those of `cv2.imdecode`. Bytes after the end of the image are ignored, and missing Huffman
     tables are the standard ones, because USB cameras pad their images and omit the tables.
     """
-    packet = np.frombuffer(content, dtype=np.uint8)  # OpenCV's packets have two dimensions
+    # OpenCV's packets have two dimensions.
+    packet = np.frombuffer(content, dtype=np.uint8)
+    image = _decoded_strictly(packet, grey=grey)
+    if isinstance(image, DamagedJpeg) and "SOS parameters" in image.reason:
+        image = _decoded_strictly(_with_valid_scan_header(packet.tobytes()), grey=grey)
+    return image
+
+
+def _decoded_strictly(
+    packet: bytes | npt.NDArray[np.uint8], *, grey: bool
+) -> npt.NDArray[np.uint8] | DamagedJpeg:
     try:
         height, width = (int(size) for size in simplejpeg.decode_jpeg_header(packet)[:2])
         if height * width > MAX_IMAGE_PIXELS:
@@ -50,6 +61,18 @@ def decode_jpeg(
     except ValueError as error:
         return DamagedJpeg(reason=str(error))
     return image[:, :, 0] if grey else image
+
+
+def _with_valid_scan_header(jpeg: bytes) -> bytes:
+    """Return a sequential JPEG with the only scan parameters that it may have.
+
+    Some network cameras and front cameras of phones write zeros there. libjpeg ignores them with a warning,
+    and further warnings are not reported.
+    """
+    # The last marker of this kind, because a thumbnail before it has one, too.
+    at = jpeg.rfind(START_OF_SCAN) + len(START_OF_SCAN)
+    end = at + int.from_bytes(jpeg[at : at + 2], "big")
+    return jpeg[: end - 3] + b"\x00\x3f\x00" + jpeg[end:]
 
 
 def decoded(content: bytes, *, grey: bool = False) -> npt.NDArray[np.uint8] | None:

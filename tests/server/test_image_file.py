@@ -89,6 +89,11 @@ def without_huffman_tables(jpeg: bytes) -> bytes:
     return jpeg[:2] + kept + jpeg[at:]
 
 
+def without_scan_parameters(jpeg: bytes) -> bytes:
+    at = jpeg.index(b"\x00\x3f\x00", jpeg.index(b"\xff\xda"))
+    return jpeg[:at] + bytes(3) + jpeg[at + 3 :]
+
+
 @pytest.mark.parametrize(
     "content",
     [
@@ -98,6 +103,7 @@ def without_huffman_tables(jpeg: bytes) -> bytes:
         pytest.param(jpeg_of(cv2.IMWRITE_JPEG_PROGRESSIVE, 1), id="progressive"),
         pytest.param(without_huffman_tables(JPEG), id="no-huffman-tables"),
         pytest.param(JPEG + bytes(3000), id="padded"),
+        pytest.param(without_scan_parameters(JPEG), id="no-scan-parameters"),
         pytest.param(JPEG + JPEG[:5000], id="followed-by-another"),
     ],
 )
@@ -114,6 +120,7 @@ def test_an_intact_jpeg_has_the_pixels_of_opencv(content: bytes) -> None:
     [
         pytest.param(WITH_GAP, "premature end", id="gap"),
         pytest.param(JPEG[:-2], "Premature end", id="no-end"),
+        pytest.param(without_scan_parameters(WITH_GAP), "premature end", id="no-scan-parameters"),
         pytest.param(JPEG[:9000] + bytes(512) + JPEG[9512:], "Corrupt", id="zeros"),
         pytest.param(JPEG[:9000] + jpeg_of(cv2.IMWRITE_JPEG_QUALITY, 90)[9000:], "Corrupt", id="two-images"),
         pytest.param(b"", "Could not determine", id="empty"),
