@@ -16,15 +16,21 @@ class DamagedImages:
 
     Args:
         name: Name of the source.
+
+    Attributes:
+        were_all: Once no image was intact from an opening of the source to its end: some cameras write
+            invalid JPEGs, on any port.
     """
 
     def __init__(self, name: str) -> None:
         self._name = name
+        self.were_all = False
         self.restart()
 
     def restart(self) -> None:
         """Reset after the source was opened."""
         self._problem: CaptureError | None = None
+        self._is_intact_seen = False
         self._intact_at_s: float | None = None
         self._damaged_in_a_row = 0
         self._began_s: float | None = None
@@ -39,6 +45,7 @@ class DamagedImages:
 
     def add_intact(self, at_s: float) -> None:
         """Count an intact image."""
+        self._is_intact_seen = True
         self._intact_at_s = at_s
         self._damaged_in_a_row = 0
         self._count(at_s)
@@ -56,6 +63,7 @@ class DamagedImages:
         self._reason = reason
         row_s = at_s - self._intact_at_s
         if row_s > MAX_DAMAGED_S:
+            self.were_all = self.were_all or not self._is_intact_seen
             raise self._error(self._damaged_in_a_row, self._damaged_in_a_row, row_s)
         self._count(at_s)
         if self._problem is None:

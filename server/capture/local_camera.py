@@ -17,7 +17,7 @@ from server.capture.controls import ControlLock
 from server.capture.damaged_images import DamagedImages
 from server.capture.driver_clock import DriverClock
 from server.capture.mode_check import ModeCheck
-from server.capture.modes import WantedMode, choose_mode
+from server.capture.modes import UNCOMPRESSED, WantedMode, choose_mode
 from server.capture.shot import Shot
 from server.capture.v4l2 import VideoDevice, VideoDevices, system_devices
 from server.capture.v4l2.structs import fourcc_text
@@ -294,6 +294,11 @@ class LocalCameraSource:
         if self._device is not None:
             with contextlib.suppress(OSError):
                 offered = self._device.modes()
+        # A mode that was never intact is replaced; a lower rate is better than no image.
+        if self._damaged.were_all and self._requested is not None:
+            size_wh_px = self._requested.size_wh_px
+            raw = [one for one in offered if one.fourcc in UNCOMPRESSED and one.size_wh_px == size_wh_px]
+            offered = tuple(raw) or offered
         return choose_mode(offered, self._wanted, calibrated_size_wh_px=calibrated)
 
     def _granted_mode(self, camera: Video) -> CameraMode:

@@ -226,3 +226,29 @@ def test_a_camera_of_damaged_images_only_is_reported_and_can_be_reopened(video: 
     source.open()
     assert source.defect is None
     assert read(source, video).number == 47
+
+
+def test_a_camera_whose_jpegs_are_all_invalid_is_reopened_without_compression_in_the_same_size(
+    video: FakeVideo,
+) -> None:
+    video.packets = itertools.repeat(WITH_GAP)
+    video.period_s = 1 / 30
+    source = source_of(video, wanted=WantedMode(size_wh_px=HD))
+    source.open()
+    assert (video.requested.fourcc, video.requested.size_wh_px) == ("MJPG", HD)
+    with pytest.raises(CaptureError, match="damaged"):
+        source.read()
+    source.close()
+    video.packets = None
+    source.open()
+    assert (video.requested.fourcc, video.requested.size_wh_px, video.requested.rate_hz) == ("YUYV", HD, 10)
+    assert read(source, video).image.shape[:2] == HD[::-1]
+    # Damage after intact images comes from the connection, which more data would not make better.
+    video.packets = itertools.chain([JPEG], itertools.repeat(WITH_GAP))
+    other = source_of(video, wanted=WantedMode(size_wh_px=HD))
+    other.open()
+    read(other, video)
+    with pytest.raises(CaptureError, match="damaged"):
+        other.read()
+    other.open()
+    assert video.requested.fourcc == "MJPG"
