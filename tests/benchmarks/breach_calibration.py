@@ -21,7 +21,7 @@ from tests.benchmarks.tables import Table
 from tests.tracker.navigation.assessed import DRILL_RADIUS_MM, drill, drill_reference
 from tests.tracker.navigation.bones import ROD_CHANNEL, ROD_FRONT_MM, ROD_RADIUS_MM, drill_at
 from tests.tracker.registration.constellations import VERTEBRA, touched
-from tracker.geometry import Anchor, Array, Rigid, Tool, Vertebra, rotation_from_vector
+from tracker.geometry import Array, Rigid, Tool, Vertebra
 from tracker.navigation.uncertainty import UncertainPose
 from tracker.registration import AnchoredTo
 from tracker.registration.points import PointPairs, PointSettings, register_points
@@ -106,7 +106,8 @@ def drilled(
         for number in range(drills):
             true_pose = placed(rng, IN_FRONT if number % 4 == 3 else ANYWHERE)
             clearance_mm, wall = true_clearance_mm(true_pose)
-            seen = off(truth.fixed_from_moving.inverse @ true_pose, TRACKING_SD * rng.normal(size=6))
+            anchor_from_tool = truth.fixed_from_moving.inverse @ true_pose
+            seen = anchor_from_tool.displaced(TRACKING_SD * rng.normal(size=6))
             tool = patient.inverse @ UncertainPose(pose=seen, covariance=np.diag(TRACKING_SD**2))
             yield Drilled(
                 registration=registration,
@@ -114,14 +115,6 @@ def drilled(
                 stated=reference.analyse(tool, drill(), ROD_CHANNEL).now.through_ratio,
                 is_through=clearance_mm + wall_mm < 0.0,
             )
-
-
-def off(pose: Rigid[Anchor, Tool], error: Array) -> Rigid[Anchor, Tool]:
-    """Return a pose with an error (6,) of translation in mm and rotation in rad."""
-    return Rigid(
-        rotation=rotation_from_vector(error[3:]) @ pose.rotation,
-        translation_mm=pose.translation_mm + error[:3],
-    )
 
 
 def reliability(name: str, drills: list[Drilled]) -> Table:
