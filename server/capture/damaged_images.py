@@ -74,8 +74,8 @@ class DamagedImages:
             self._began_s = at_s
         self._images += 1
         if at_s - self._began_s >= COUNTED_OVER_S:
-            counted = self._error(self._damaged, self._images, at_s - self._began_s)
-            self._problem = counted if self._damaged else None
+            duration_s = at_s - self._began_s
+            self._problem = self._error(self._damaged, self._images, duration_s) if self._damaged else None
             self._began_s, self._images, self._damaged = at_s, 0, 0
 
     def _error(self, damaged: int, images: int, duration_s: float) -> CaptureError:

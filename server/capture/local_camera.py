@@ -17,7 +17,7 @@ from server.capture.controls import ControlLock
 from server.capture.damaged_images import DamagedImages
 from server.capture.driver_clock import DriverClock
 from server.capture.mode_check import ModeCheck
-from server.capture.modes import UNCOMPRESSED, WantedMode, choose_mode
+from server.capture.modes import JPEG_FORMATS, UNCOMPRESSED, WantedMode, choose_mode
 from server.capture.shot import Shot
 from server.capture.v4l2 import VideoDevice, VideoDevices, system_devices
 from server.capture.v4l2.structs import fourcc_text
@@ -25,8 +25,6 @@ from server.errors import CaptureError
 from server.image_file import DamagedJpeg, decode_jpeg
 from server.live import CameraMode, CameraStatus, ImageClock
 from tracker.camera import CameraControl
-
-JPEG_FORMATS = ("MJPG", "JPEG")
 
 log = structlog.get_logger(__name__)
 
