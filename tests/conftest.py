@@ -1,5 +1,6 @@
 """Shared fixtures: one real headless browser, the root logger, and the order of the tests."""
 
+import gc
 import logging
 import os
 import shutil
@@ -59,6 +60,15 @@ def browser() -> Iterator[Browser]:
 def pytest_configure() -> None:
     """Cases of tests are never stored among a user's: each server start names its own folder."""
     os.environ["COAXIAL_HOME"] = os.devnull
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Leave loaded modules out of garbage collection, which took a fifth of the processor time of tests."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000)
+    gc.enable()
 
 
 @pytest.fixture(autouse=True)

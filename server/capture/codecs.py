@@ -73,6 +73,15 @@ def is_predicted(video: cv2.VideoCapture) -> bool:
     return name.strip("\0 ").upper() not in INTRA_CODECS
 
 
+def set_jpeg_packets(video: cv2.VideoCapture) -> bool:
+    """Make an open MJPEG file or stream return its packets instead of images; False for another codec.
+
+    FFmpeg decodes damaged JPEGs without a word, and OpenCV scales all images to the size of the first.
+    """
+    is_jpeg = int(video.get(cv2.CAP_PROP_FOURCC)) == cv2.VideoWriter.fourcc(*"MJPG")
+    return is_jpeg and bool(video.set(cv2.CAP_PROP_FORMAT, -1))
+
+
 @contextlib.contextmanager
 def _stream_options() -> Iterator[None]:
     """Set OpenCV's environment options for a stream; restored, because they cost a file its first image."""

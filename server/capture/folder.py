@@ -13,13 +13,12 @@ from server.capture.codecs import silence_codecs
 from server.capture.pacer import Pacer
 from server.capture.shot import Shot
 from server.errors import CaptureError
-from server.image_file import decoded
+from server.image_file import JPEG_START, decoded
 from server.live import CameraStatus
 
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm")
 DEFAULT_RATE_HZ = 30.0
 MAX_NAMED = 3
-JPEG_START = b"\xff\xd8\xff"
 
 
 class FolderSource:
@@ -131,7 +130,7 @@ class FolderSource:
         try:
             content = file.read_bytes()
             image = decoded(content)
-            reason = f"its {len(content)} bytes are not a decodable image"
+            reason = f"its {len(content)} bytes are not an image, or a damaged one"
         except OSError as error:
             reason = (error.strerror or "it cannot be read").lower()
         if image is None:

@@ -8,18 +8,21 @@ from typing import Protocol
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 import structlog
 
 from server.capture.address import SourceAddress
 from server.capture.codecs import open_device
 from server.capture.controls import ControlLock
+from server.capture.damaged_images import DamagedImages
 from server.capture.driver_clock import DriverClock
 from server.capture.mode_check import ModeCheck
-from server.capture.modes import WantedMode, choose_mode
+from server.capture.modes import JPEG_FORMATS, UNCOMPRESSED, WantedMode, choose_mode
 from server.capture.shot import Shot
 from server.capture.v4l2 import VideoDevice, VideoDevices, system_devices
 from server.capture.v4l2.structs import fourcc_text
 from server.errors import CaptureError
+from server.image_file import DamagedJpeg, decode_jpeg
 from server.live import CameraMode, CameraStatus, ImageClock
 from tracker.camera import CameraControl
 
@@ -103,11 +106,13 @@ class LocalCameraSource:
         self._requested: CameraMode | None = None
         self._check: ModeCheck | None = None
         self._control_lock: ControlLock | None = None
+        self._is_jpeg = False
+        self._damaged = DamagedImages(address.name)
 
     @property
     def defect(self) -> CaptureError | None:
-        """Difference between its images and the requested mode; None without one."""
-        return None if self._check is None else self._check.problem
+        """Damaged images, or a difference between its images and the requested mode; None without one."""
+        return self._damaged.problem or (None if self._check is None else self._check.problem)
 
     @property
     def camera(self) -> CameraStatus:
@@ -143,30 +148,25 @@ class LocalCameraSource:
         self._camera = camera
         self._device, self._device_name = self._opened_device()
         self._timestamps.restart()
+        self._damaged.restart()
         self._ask(camera)
         self._lock_controls_now()
 
     def read(self) -> Shot | None:
-        """Return the next image."""
+        """Return the next intact image; damaged ones are skipped and counted."""
         self._use_adopted()
-        camera, image = self._camera, None
-        captured_at_s = 0.0
-        if camera is not None and camera.grab():
-            captured_at_s = self._captured_at_s(camera)
-            image = camera.retrieve()[1]
-        if image is None:
-            raise CaptureError(
-                "CAMERA_STOPPED",
-                f"{self.name} sent no image",
-                "Check its cable and power; it is retried automatically.",
-                {"camera": self.name},
-            )
+        image, captured_at_s = self._grabbed()
+        while isinstance(image, DamagedJpeg):
+            self._number += 1
+            self._damaged.add_damaged(image.reason, self._clock())
+            image, captured_at_s = self._grabbed()
+        self._damaged.add_intact(self._clock())
         if self._check is not None:
             height, width = image.shape[:2]
             self._check.take((width, height), captured_at_s)
         if self._control_lock is not None:
             self._control_lock.poll(self._clock())
-        shot = Shot.live(np.asarray(image), number=self._number, captured_at_s=captured_at_s)
+        shot = Shot.live(image, number=self._number, captured_at_s=captured_at_s)
         self._number += 1
         return shot
 
@@ -179,6 +179,28 @@ class LocalCameraSource:
             self._device.close()
             self._device = None
         self._control_lock = None
+
+    def _grabbed(self) -> tuple[npt.NDArray[np.uint8] | DamagedJpeg, float]:
+        """Return the next image with its capture time."""
+        camera = self._camera
+        if camera is None or not camera.grab():
+            raise self._stopped()
+        captured_at_s = self._captured_at_s(camera)
+        content = camera.retrieve()[1]
+        if self._is_jpeg:
+            # OpenCV returns None for an empty packet.
+            return decode_jpeg(b"" if content is None else np.asarray(content)), captured_at_s
+        if content is None:
+            raise self._stopped()
+        return np.asarray(content), captured_at_s
+
+    def _stopped(self) -> CaptureError:
+        return CaptureError(
+            "CAMERA_STOPPED",
+            f"{self.name} sent no image",
+            "Check its cable and power; it is retried automatically.",
+            {"camera": self.name},
+        )
 
     def _use_adopted(self) -> None:
         """Apply the calibration that was adopted last, if it differs."""
@@ -252,6 +274,9 @@ class LocalCameraSource:
             camera.set(cv2.CAP_PROP_FPS, rate_hz)
         self._requested = requested
         granted = self._granted_mode(camera)
+        # OpenCV decodes damaged JPEGs without a word, so packets are decoded here. A backend without them
+        # returns False.
+        self._is_jpeg = granted.fourcc in JPEG_FORMATS and camera.set(cv2.CAP_PROP_CONVERT_RGB, 0)
         self._check = ModeCheck(self.name, wanted=self._wanted, requested=requested, granted=granted)
         log.info(
             "camera mode requested",
@@ -267,6 +292,11 @@ class LocalCameraSource:
         if self._device is not None:
             with contextlib.suppress(OSError):
                 offered = self._device.modes()
+        # A mode that was never intact is replaced; a lower rate is better than no image.
+        if self._damaged.were_all and self._requested is not None:
+            size_wh_px = self._requested.size_wh_px
+            raw = [one for one in offered if one.fourcc in UNCOMPRESSED and one.size_wh_px == size_wh_px]
+            offered = tuple(raw) or offered
         return choose_mode(offered, self._wanted, calibrated_size_wh_px=calibrated)
 
     def _granted_mode(self, camera: Video) -> CameraMode:

@@ -11,8 +11,9 @@ MIN_RATE_HZ = 25.0
 MAX_SIZE_WH_PX = (1920, 1080)
 # Lossless, so at equal size and rate better than MJPG, which has block artefacts at marker edges.
 UNCOMPRESSED = ("YUYV", "UYVY", "NV12", "NV21", "YU12", "YV12", "BGR3", "RGB3", "GREY")
-# Formats that OpenCV's V4L2 backend converts to BGR.
-DECODED = (*UNCOMPRESSED, "MJPG", "JPEG")
+JPEG_FORMATS = ("MJPG", "JPEG")
+# Uncompressed ones are converted to BGR by OpenCV's V4L2 backend, JPEGs decoded from their packets.
+DECODED = (*UNCOMPRESSED, *JPEG_FORMATS)
 # 29.97 and 30, 59.94 and 60 are the same rate.
 SAME_RATE_RATIO = 0.01
 

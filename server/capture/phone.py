@@ -12,13 +12,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 
 from server.capture.modes import WantedMode, is_same_rate
 from server.capture.shot import Shot
 from server.errors import CaptureError
+from server.image_file import DamagedJpeg, decode_jpeg
 from server.live import CameraMode, CameraStatus, ImageClock, Problem
 from tracker.camera import CameraControl
 
@@ -188,8 +188,8 @@ class PhoneSource:
             problem = update.problem or problem
             if update.image is None:
                 continue
-            image = _decoded(update.image.jpeg)
-            if image is None:
+            image = decode_jpeg(update.image.jpeg)
+            if isinstance(image, DamagedJpeg):
                 problem = broken_image()
                 continue
             return self._shot(image, update.image)
@@ -206,12 +206,6 @@ class PhoneSource:
         shot = Shot.live(image, number=self._number, captured_at_s=received.captured_at_s, jpeg=received.jpeg)
         self._number += 1
         return shot
-
-
-def _decoded(jpeg: bytes) -> npt.NDArray[np.uint8] | None:
-    content = np.frombuffer(jpeg, dtype=np.uint8)
-    image = cv2.imdecode(content, cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
-    return None if image is None else np.asarray(image, dtype=np.uint8)
 
 
 def broken_image() -> Problem:

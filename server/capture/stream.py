@@ -2,7 +2,7 @@
 
 OpenCV's FFmpeg backend silently scales images that change their size to the first size, with any aspect
 ratio; a calibration would then be applied to stretched images. For MJPEG it returns the packets, so those are
-decoded here in their own size, and truncated ones are dropped. H.264 and H.265 streams that change their size
+decoded here in their own size, and damaged ones are skipped. H.264 and H.265 streams that change their size
 are still stretched.
 
 For an RTSP stream OpenCV returns each image's RTP time, which is mapped to this machine's clock like a
@@ -24,12 +24,20 @@ import structlog
 
 from server.capture.address import SourceAddress
 from server.capture.backlog import Backlog
-from server.capture.codecs import OPEN_TIMEOUT_MS, READ_TIMEOUT_MS, is_predicted, open_stream
+from server.capture.codecs import (
+    OPEN_TIMEOUT_MS,
+    READ_TIMEOUT_MS,
+    is_predicted,
+    open_stream,
+    set_jpeg_packets,
+)
+from server.capture.damaged_images import DamagedImages
 from server.capture.device_clock import DeviceClock
 from server.capture.driver_clock import DriverClock
 from server.capture.pacer import Pacer
 from server.capture.shot import Shot
 from server.errors import CaptureError
+from server.image_file import DamagedJpeg, decode_jpeg
 from server.live import CameraStatus, ImageClock
 
 # RTSP packets carry the sender's time (RTP); HTTP has none, and FFmpeg derives it from a rate.
@@ -38,7 +46,6 @@ DEFAULT_PORTS = {"rtsp": 554, "rtsps": 322, "rtmp": 1935, "http": 80, "https": 4
 # Short, so that a host is found within a second after its return; an attempt of the decoder takes 3 s.
 CONNECT_TIMEOUT_S = 0.5
 MAX_OLD_S = 2.0
-MAX_TORN = 30
 
 log = structlog.get_logger(__name__)
 
@@ -67,7 +74,7 @@ class StreamSource:
         self.name = address.name
         self.waits_for_consumer = False
         self.stalls = True
-        self.defect: CaptureError | None = None
+        self._damaged = DamagedImages(address.name)
         self._address = address.text
         self._number = first_number
         self._clock = clock
@@ -80,7 +87,11 @@ class StreamSource:
         self._is_jpeg = False
         self._is_predicted = False
         self._stream: cv2.VideoCapture | None = None
-        self._torn = 0
+
+    @property
+    def defect(self) -> CaptureError | None:
+        """The damaged images of the last seconds; None without one."""
+        return self._damaged.problem
 
     @property
     def camera(self) -> CameraStatus | None:
@@ -106,16 +117,13 @@ class StreamSource:
             )
         images = float(stream.get(cv2.CAP_PROP_FRAME_COUNT))
         self._is_file = math.isfinite(images) and images > 0
-        # OpenCV silently scales images that change their size in a stream to the first size; for JPEG it can
-        # return the packets.
-        is_jpeg = int(stream.get(cv2.CAP_PROP_FOURCC)) == cv2.VideoWriter.fourcc(*"MJPG")
-        self._is_jpeg = is_jpeg and not self._is_file and bool(stream.set(cv2.CAP_PROP_FORMAT, -1))
+        self._is_jpeg = set_jpeg_packets(stream)
         self._is_predicted = is_predicted(stream)
         self._pacer.restart()
         self._backlog.restart()
         self._sender_clock.restart()
         self._timestamps.restart()
-        self._torn = 0
+        self._damaged.restart()
         self._stream = stream
 
     def read(self) -> Shot | None:
@@ -145,7 +153,7 @@ class StreamSource:
             self._stream = None
 
     def _newest(self, stream: cv2.VideoCapture) -> tuple[np.ndarray, float]:
-        """Return the next complete image that was not buffered, with its capture time; others are counted."""
+        """Return the next intact image that was not buffered, with its capture time; others are counted."""
         while True:
             good = stream.grab()
             arrived_s = self._clock()
@@ -155,12 +163,10 @@ class StreamSource:
             is_old = not self._is_file and self._backlog.is_old(arrived_s)
             if not is_old:
                 image = self._decoded(stream)
-                if image is not None:
-                    self._torn = 0
+                if not isinstance(image, DamagedJpeg):
+                    self._damaged.add_intact(arrived_s)
                     return image, captured_at_s
-                self._torn += 1
-            if self._torn > MAX_TORN:
-                raise self._all_torn()
+                self._damaged.add_damaged(image.reason, arrived_s)
             if is_old and self._backlog.old_for_s(arrived_s) > MAX_OLD_S:
                 raise self._in_bursts()
             self._number += 1
@@ -194,15 +200,13 @@ class StreamSource:
             )
         return captured_at_s
 
-    def _decoded(self, stream: cv2.VideoCapture) -> np.ndarray | None:
-        """Return the image in its own size; None for a truncated JPEG."""
+    def _decoded(self, stream: cv2.VideoCapture) -> np.ndarray | DamagedJpeg:
+        """Return the image in its own size."""
         content = stream.retrieve()[1]
         if content is None:
             raise self._stopped()
-        if not self._is_jpeg:
-            return np.asarray(content)
-        image = cv2.imdecode(content, cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
-        return None if image is None else np.asarray(image)
+        image = np.asarray(content, dtype=np.uint8)
+        return decode_jpeg(image) if self._is_jpeg else image
 
     def _in_bursts(self) -> CaptureError:
         return CaptureError(
@@ -212,14 +216,6 @@ class StreamSource:
             "Set the camera to low latency, connect it by cable, and check that this machine is not "
             "overloaded. It is reopened automatically.",
             {"stream": self.name, "limit_s": MAX_OLD_S},
-        )
-
-    def _all_torn(self) -> CaptureError:
-        return CaptureError(
-            "STREAM_TORN",
-            f"the stream {self.name} sent {self._torn} truncated images in a row",
-            "Restart the camera, or the device between it and this machine; it is reopened automatically.",
-            {"stream": self.name, "images": self._torn},
         )
 
     def _stopped(self) -> CaptureError:

@@ -6,10 +6,11 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from server.capture.codecs import is_predicted, open_file
+from server.capture.codecs import is_predicted, open_file, set_jpeg_packets
 from server.capture.pacer import Pacer
 from server.capture.shot import Shot
 from server.errors import CaptureError
+from server.image_file import DamagedJpeg, decode_jpeg
 from server.live import CameraStatus
 
 FALLBACK_RATE_HZ = 30.0
@@ -19,7 +20,7 @@ CUT_IMAGES = 2
 
 
 class VideoFileSource:
-    """Images of a video file, at its timestamps."""
+    """Images of a video file, at its timestamps; damaged JPEGs are left out and keep their number."""
 
     def __init__(
         self,
@@ -42,8 +43,10 @@ class VideoFileSource:
         self._pacer = pacer
         self._video: cv2.VideoCapture | None = None
         self._is_predicted = False
+        self._is_jpeg = False
         self._claimed = 0
         self._read_in_pass = 0
+        self._damaged_in_pass = 0
         self._offset_s = 0.0
         self._last_s = 0.0
 
@@ -87,18 +90,30 @@ class VideoFileSource:
             self._video = None
 
     def _decode(self) -> tuple[np.ndarray | None, float]:
+        """Return the next intact image with its time; None at the end."""
         if self._video is None:
             raise self._no_video("it is not open")
-        good, image = self._video.read()
-        if not good or image is None:
-            return None, 0.0
-        time_s = float(self._video.get(cv2.CAP_PROP_POS_MSEC)) / 1000.0
+        while True:
+            good, content = self._video.read()
+            if not good or content is None:
+                return None, 0.0
+            time_s = self._time_s(self._video)
+            image = np.asarray(content, dtype=np.uint8)
+            decoded = decode_jpeg(image) if self._is_jpeg else image
+            if not isinstance(decoded, DamagedJpeg):
+                return decoded, time_s
+            self._number += 1
+            self._damaged_in_pass += 1
+            self.defect = self._damaged(decoded.reason)
+
+    def _time_s(self, video: cv2.VideoCapture) -> float:
+        time_s = float(video.get(cv2.CAP_PROP_POS_MSEC)) / 1000.0
         # Some files have no or constant timestamps: then the rate is used.
         if self._read_in_pass > 0 and not time_s > self._last_s:
             time_s = self._last_s + self._period_s()
         self._read_in_pass += 1
         self._last_s = time_s
-        return np.asarray(image), time_s
+        return time_s
 
     def _start_pass(self) -> None:
         # Reopened at each repeat, because seeking to the first image is not exact in every container, and the
@@ -111,8 +126,10 @@ class VideoFileSource:
             raise self._no_video("it cannot be decoded as video")
         self._video = video
         self._is_predicted = is_predicted(video)
+        self._is_jpeg = set_jpeg_packets(video)
         self._claimed = max(0, int(video.get(cv2.CAP_PROP_FRAME_COUNT)))
         self._read_in_pass = 0
+        self._damaged_in_pass = 0
         self._last_s = 0.0
 
     def _period_s(self) -> float:
@@ -123,14 +140,30 @@ class VideoFileSource:
 
     def _note_if_cut(self) -> None:
         missing = self._claimed - self._read_in_pass
-        self.defect = None
+        if not self._damaged_in_pass:
+            self.defect = None
         if missing > max(CUT_IMAGES, CUT_RATIO * self._claimed):
+            images = self._read_in_pass - self._damaged_in_pass
             self.defect = CaptureError(
                 "VIDEO_FILE_CUT",
-                f"the video file {self.name} ends after {self._read_in_pass} of {self._claimed} images",
+                f"the video file {self.name} ends after {images} of {self._claimed} images",
                 "Copy or export the file again; the existing images are played.",
-                {"file": self.name, "images": self._read_in_pass, "claimed_images": self._claimed},
+                {"file": self.name, "images": images, "claimed_images": self._claimed},
             )
+
+    def _damaged(self, reason: str) -> CaptureError:
+        return CaptureError(
+            "VIDEO_IMAGES_DAMAGED",
+            f"{self._damaged_in_pass} of {self._read_in_pass} images of {self.name} are damaged and not used "
+            f"({reason})",
+            "Copy or export the file again; the existing images are played.",
+            {
+                "file": self.name,
+                "damaged_images": self._damaged_in_pass,
+                "images": self._read_in_pass,
+                "library_error": reason,
+            },
+        )
 
     def _no_video(self, reason: str) -> CaptureError:
         size = self._path.stat().st_size if self._path.is_file() else 0

@@ -27,6 +27,8 @@ def _private_calls_of_python(source: str) -> Iterator[str]:
 
 
 def _private_imports(source: str) -> Iterator[str]:
+    if "_kernels import" not in source:
+        return
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.ImportFrom) and (node.module or "").endswith("_kernels"):
             yield from (one.name for one in node.names if one.name.startswith("_"))

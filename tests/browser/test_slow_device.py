@@ -47,24 +47,22 @@ if (window !== top) {
   requestAnimationFrame(look);
 }
 """
-SLOW = {
-    "decoding": """
-        const decode = window.createImageBitmap.bind(window);
-        window.createImageBitmap = async (...options) => {
-          if (window.slow) await new Promise((done) => setTimeout(done, 150));
-          return decode(...options);
-        };
-    """,
-    "drawing": """
-        const draw = ImageBitmapRenderingContext.prototype.transferFromImageBitmap;
-        ImageBitmapRenderingContext.prototype.transferFromImageBitmap = function (...options) {
-          if (window.slow && this.canvas.className === "sharp") {
-            for (const until = performance.now() + 150; performance.now() < until; );
-          }
-          return draw.apply(this, options);
-        };
-    """,
-}
+SLOW_DECODING = """
+const decode = window.createImageBitmap.bind(window);
+window.createImageBitmap = async (...options) => {
+  if (window.slow) await new Promise((done) => setTimeout(done, 150));
+  return decode(...options);
+};
+"""
+SLOW_DRAWING = """
+const draw = ImageBitmapRenderingContext.prototype.transferFromImageBitmap;
+ImageBitmapRenderingContext.prototype.transferFromImageBitmap = function (...options) {
+  if (this.canvas.className === "sharp") {
+    for (const until = performance.now() + 150; performance.now() < until; );
+  }
+  return draw.apply(this, options);
+};
+"""
 ORDER = ["interval_ms", "scale", "largest"]
 
 
@@ -75,10 +73,10 @@ def theatre(theatre: Theatre) -> Theatre:
     return theatre
 
 
-def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
-    """The page after all reductions. It is slow only once its scene is drawn."""
-    watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW[part]} }})()")
-    page = watched.open(f"theatre{query}")
+def slowed(watched: WatchedPage) -> Page:
+    """The page after all reductions. Its decoding is slow only once its scene is drawn."""
+    watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW_DECODING} }})()")
+    page = watched.open("theatre")
     show_scene(page)
     page.wait_for_function("() => given.some(([what]) => what === 'scale')")
     page.evaluate("slow = true")
@@ -86,9 +84,9 @@ def slowed(watched: WatchedPage, part: str, *, query: str = "") -> Page:
     return page
 
 
-def gave_way_in_order(page: Page, words: str) -> None:
+def gave_way_in_order(page: Page) -> None:
     """First the rate, then the scene, last the picture's size; and the page reports what is slow."""
-    expect(page.get_by_test_id("line-note")).to_have_text(re.compile(f"{words}: .* 640x360"))
+    expect(page.get_by_test_id("line-note")).to_have_text(re.compile("Slow decoding: .* 640x360"))
     # Full size is no step.
     given = [one for one in page.evaluate("given") if one != ["scale", 1]]
     assert [ORDER.index(what) for what, _ in given] == sorted(ORDER.index(what) for what, _ in given)
@@ -105,8 +103,8 @@ def gave_way_in_order(page: Page, words: str) -> None:
 def test_a_device_that_decodes_slowly_keeps_its_picture_longest_and_its_scene_live(
     theatre: Theatre, watch: Watch
 ) -> None:
-    page = slowed(watch(theatre, 1280, 900), "decoding")
-    gave_way_in_order(page, "Slow decoding")
+    page = slowed(watch(theatre, 1280, 900))
+    gave_way_in_order(page)
     # At its lowest rate and resolution.
     is_live(page, "scene")
     frame = page.locator(".scene-stage iframe")
@@ -118,9 +116,13 @@ def test_a_device_that_decodes_slowly_keeps_its_picture_longest_and_its_scene_li
     assert shown == pytest.approx(1.0, abs=0.02)
 
 
-def test_a_device_that_draws_slowly_keeps_its_picture_longest(theatre: Theatre, watch: Watch) -> None:
-    page = slowed(watch(theatre, 1280, 900), "drawing", query="?lang=de")
-    gave_way_in_order(page, "Langsames Zeichnen")
+def test_a_device_that_draws_slowly_says_so_with_its_picture_at_half_size(
+    theatre: Theatre, watch: Watch
+) -> None:
+    watched = watch(theatre, 1280, 900)
+    watched.page.add_init_script(SLOW_DRAWING)
+    page = watched.open("theatre?lang=de")
+    expect(page.get_by_test_id("line-note")).to_have_text(re.compile("Langsames Zeichnen: .* 640x360"))
 
 
 def test_a_scene_that_makes_the_figures_late_is_switched_off_until_somebody_asks_for_it(

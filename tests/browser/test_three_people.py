@@ -34,6 +34,8 @@ SETTINGS = {
     "security": {"sign_in": "required"},
     "supervision": {"cosign": {"plan": "required", "registration": "required"}},
     "reference": {"marker": "reference"},
+    # The driver of the browser is sent a copy of each picture.
+    "video": {"jpeg_quality": 40},
     "rehearsal": {
         "seed": 3,
         "provides_setup": False,
@@ -44,7 +46,7 @@ SETTINGS = {
         "rate_hz": 10,
         "skill": "good",
         # On a busy machine a page learns late that the tip rests, and captures late.
-        "rest_s": 4.0,
+        "rest_s": 2.5,
     },
     # A busy machine delivers few images; other tests check how still the tip must be.
     "registration": {

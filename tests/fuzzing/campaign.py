@@ -204,13 +204,13 @@ def _try_inputs(
                 seen.add(outcome.key)
                 if not outcome.problem:
                     seeds.append(content)
-                outcome = {
+                found = {
                     "key": outcome.key,
                     "kind": kind,
                     "problem": outcome.problem,
                     "content": content.hex(),
                 }
-                outcomes.write(json.dumps(outcome) + "\n")
+                outcomes.write(json.dumps(found) + "\n")
             if kind == "memory":
                 # The peak of this process stays; another one goes on.
                 return

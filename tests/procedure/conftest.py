@@ -26,7 +26,6 @@ from server.setup import CaseSetup, Preparation, build_setup
 from server.store import CaseStore, Home
 from tests.server.recording.no_recorder import recordings_without_process
 from tests.shared_validators import share_validators
-from tracker.geometry import Rigid, rotation_from_vector
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, navigate
 from tracker.pose import Seen, Unseen, UnseenReason
 from tracker.rehearsal import Theatre
@@ -215,10 +214,7 @@ def sighting(theatre: Theatre, at_s: float, random: np.random.Generator) -> Seen
     noise = random.normal(0.0, sd)
     pose = truth.camera_from_marker
     return Seen(
-        camera_from_marker=Rigid(
-            rotation=rotation_from_vector(noise[3:]) @ pose.rotation,
-            translation_mm=pose.translation_mm + noise[:3],
-        ),
+        camera_from_marker=pose.displaced(noise),
         pose_covariance=np.diag(sd**2),
         corners_px=truth.corners_px,
         score_ratio=0.95,

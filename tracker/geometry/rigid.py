@@ -90,6 +90,17 @@ class Rigid(Generic[To, From]):
             translation_mm=self.rotation @ other.translation_mm + self.translation_mm,
         )
 
+    def displaced(self, step: Array) -> "Rigid[To, From]":
+        """Return the transform after a small step, in the convention of its covariances.
+
+        Args:
+            step: (6,) [mm, rad]; translation first, then a rotation vector, multiplied from the left in `To`.
+        """
+        return Rigid(
+            rotation=rotation_from_vector(step[3:]) @ self.rotation,
+            translation_mm=self.translation_mm + step[:3],
+        )
+
     def move_points(self, points_mm: npt.ArrayLike) -> Array:
         """Transform points (..., 3) in mm from frame `From` to frame `To`."""
         return np.asarray(points_mm, dtype=np.float64) @ self.rotation.T + self.translation_mm

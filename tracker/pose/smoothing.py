@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
+from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
 
 # Squared Mahalanobis distance of two poses, the 99 % point of chi-square with 6 degrees of freedom. Above it
 # the pose is returned unchanged, because jitter is better than lag.
@@ -132,10 +132,7 @@ def _mean(chosen: list[_TimedPose]) -> SmoothedPose:
     step, lag_s = difference.mean(axis=0), float(age_s.mean())
     covariance = np.mean([one.covariance for one in chosen], axis=0) + np.outer(step, step)
     return SmoothedPose(
-        camera_from_marker=Rigid(
-            rotation=rotation_from_vector(step[3:]) @ new.pose.rotation,
-            translation_mm=new.pose.translation_mm + step[:3],
-        ),
+        camera_from_marker=new.pose.displaced(step),
         pose_covariance=np.asarray(covariance),
         lag_ms=1000.0 * lag_s,
         noise_ratio=float(1.0 / np.sqrt(len(chosen))),

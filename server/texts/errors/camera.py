@@ -90,12 +90,6 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "de": "der Videostrom {stream} ist ausgefallen: kein Bild in {timeout_s:g} s, oder geschlossen",
         },
     ),
-    "STREAM_TORN": (
-        {
-            "en": "the stream {stream} sent {images} truncated images in a row",
-            "de": "der Videostrom {stream} sendete nacheinander {images} abgeschnittene Bilder",
-        },
-    ),
     "TRACKING_STARVED": (
         {
             "en": "this computer is overloaded: no image was tracked for {silent_s:.1f} s, of which the "
@@ -108,6 +102,13 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "the stream {stream} is reachable, but sent no video within {timeout_s:g} s",
             "de": "der Videostrom {stream} ist erreichbar, sendete aber {timeout_s:g} s lang kein Video",
+        },
+    ),
+    "VIDEO_IMAGES_DAMAGED": (
+        {
+            "en": "{damaged_images} of {images} images of {file} are damaged and not used ({library_error})",
+            "de": "{damaged_images} von {images} Bildern von {file} sind beschädigt und werden nicht "
+            "verwendet ({library_error})",
         },
     ),
     "VIDEO_FILE_CUT": (
@@ -166,6 +167,14 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
         {
             "en": "an image of {source} is {given}, needed is uint8 (height, width, 3)",
             "de": "ein Bild von {source} ist {given}, nötig ist uint8 (Höhe, Breite, 3)",
+        },
+    ),
+    "IMAGES_DAMAGED": (
+        {
+            "en": "damaged and not used: {damaged_images} of {images} images of {source} within "
+            "{duration_s:.1f} s ({library_error})",
+            "de": "beschädigt und nicht verwendet: {damaged_images} von {images} Bildern von {source} in "
+            "{duration_s:.1f} s ({library_error})",
         },
     ),
     "IMAGE_NOT_DECODED": (

@@ -12,7 +12,7 @@ from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.loop.tracking import Tracking
 from server.setup import Preparation, build_setup
-from tracker.geometry import Anchor, Array, Camera, Marker, Rigid, Tool, Vertebra, rotation_from_vector
+from tracker.geometry import Anchor, Array, Camera, Marker, Rigid, Tool, Vertebra
 from tracker.navigation import NavigationSnapshot, navigate
 from tracker.navigation.alarms import AlarmState, Condition
 from tracker.navigation.clearance import NearestWall, WallDistanceField, clearance_of_drill, drill_rings
@@ -181,10 +181,7 @@ class DrillingTheatre:
     def _seen(self, pose: Rigid[Camera, Marker]) -> Seen:
         error = self.random.normal(0.0, POSE_SD)
         return Seen(
-            camera_from_marker=Rigid(
-                rotation=rotation_from_vector(error[3:]) @ pose.rotation,
-                translation_mm=pose.translation_mm + error[:3],
-            ),
+            camera_from_marker=pose.displaced(error),
             pose_covariance=np.diag(POSE_SD**2),
             corners_px=np.zeros((4, 2)),
             score_ratio=0.95,

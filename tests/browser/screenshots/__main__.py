@@ -18,6 +18,7 @@ from playwright.sync_api import Error as PlaywrightError
 
 from tests.browser.made_up_ct import answer_ct
 from tests.browser.screenshots.contact_sheet import Picture, contact_sheet
+from tests.browser.screenshots.german_numbers import page_texts, with_points
 from tests.browser.screenshots.page_faults import page_faults
 from tests.browser.screenshots.states import STAGES, Stage, State, click
 from tests.browser.theatre import WatchedPage
@@ -86,6 +87,8 @@ class Photographer:
         logged = [f"console: {one}" for one in watched.complaints]
         watched.complaints.clear()
         faults = [*problems, *page_faults(page), *logged]
+        if self._language == "de":
+            faults += [f"decimal point: {text}" for text in with_points(page_texts(page))]
         return Picture(file=file, variant=variant, faults=faults)
 
     def _context(self, state: State) -> BrowserContext:

@@ -1,7 +1,7 @@
 """A fake local camera: its V4L2 driver and its OpenCV capture."""
 
 import errno
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 import cv2
@@ -102,8 +102,8 @@ class FakeDevices:
 class FakeVideo:
     """OpenCV's view of a camera: it grants what is offered, and stamps images with the driver's clock.
 
-    The test sets `now_s`, the only clock of this machine, and the transfer time of an image.
-
+    The test sets `now_s`, the only clock of this machine, and the transfer time of an image. With `packets`
+    it returns these instead of images, `period_s` apart.
     """
 
     def __init__(self, camera: FakeCamera, *, latency_s: float = 0.04) -> None:
@@ -115,6 +115,8 @@ class FakeVideo:
         self.grants: CameraMode | None = None
         self.stamp: Callable[[float], float] = lambda taken_s: taken_s
         self.size_wh_px: tuple[int, int] | None = None
+        self.packets: Iterator[bytes] | None = None
+        self.period_s = 0.0
         self.is_open = True
         self._stamp_s = 0.0
         self._taken = 0
@@ -131,6 +133,8 @@ class FakeVideo:
 
     def set(self, key: int, value: float) -> bool:
         width, height = self.requested.size_wh_px
+        if key == cv2.CAP_PROP_CONVERT_RGB:
+            return self.packets is not None
         if key == cv2.CAP_PROP_FOURCC:
             self.requested = replace(self.requested, fourcc=fourcc_text(int(value)))
         elif key == cv2.CAP_PROP_FRAME_WIDTH:
@@ -153,10 +157,14 @@ class FakeVideo:
         }[key]
 
     def grab(self) -> bool:
+        self.now_s += self.period_s
         self._stamp_s = self.stamp(self.now_s - self.latency_s)
         return True
 
     def retrieve(self) -> tuple[bool, np.ndarray | None]:
+        if self.packets is not None:
+            packet = next(self.packets)
+            return True, np.frombuffer(packet, np.uint8).reshape(1, -1) if packet else None
         width, height = self.size_wh_px or self.camera.granted.size_wh_px
         self._taken += 1
         # Another grey level each time, since no two sensor images are equal; one byte in memory.

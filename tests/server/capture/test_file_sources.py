@@ -97,6 +97,22 @@ def test_a_truncated_video_delivers_its_images_and_reports_the_missing_ones(tmp_
     assert f"{len(shots)} of 20 images" in source.defect.message
 
 
+def test_damaged_jpegs_of_a_video_are_left_out_keep_their_number_and_are_reported(tmp_path: Path) -> None:
+    path = write_video(tmp_path / "v.avi")
+    packets = path.read_bytes().split(b"00dc")
+    # The fourth image ends early in its scan.
+    at = packets[5].index(b"\xff\xda") + 20
+    packets[5] = packets[5][:at] + b"\xff\xd9" + packets[5][at + 2 :]
+    path.write_bytes(b"00dc".join(packets))
+    source = video(path)
+    shots = read_all(source)
+    assert [shot.number for shot in shots] == [level(shot) for shot in shots] == [0, 1, 2, 4, 5, 6, 7]
+    assert shots[3].source_time_s == pytest.approx(4 / 25)
+    assert source.defect is not None
+    assert source.defect.code == "VIDEO_IMAGES_DAMAGED"
+    assert f"1 of 4 images of {path} are damaged" in source.defect.message
+
+
 @pytest.mark.parametrize(
     ("content", "code", "words"),
     [

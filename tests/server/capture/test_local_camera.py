@@ -1,5 +1,8 @@
 """A local camera as a source: requested mode, and clock of its images."""
 
+import itertools
+
+import numpy as np
 import pytest
 from structlog.testing import capture_logs
 
@@ -10,6 +13,7 @@ from server.capture.shot import Shot
 from server.capture.v4l2 import NoDevices, VideoDevices
 from server.errors import CaptureError
 from server.live import CameraMode, ImageClock
+from tests.server.capture.damaged_jpegs import JPEG, WITH_GAP
 from tests.server.capture.fake_camera import FULL_HD, HD, VGA, FakeCamera, FakeDevices, FakeVideo
 from tracker.camera import CameraControl
 
@@ -190,3 +194,61 @@ def test_a_size_that_the_settings_name_stays_whatever_is_adopted(video: FakeVide
     source.adopt(CalibratedCamera(size_wh_px=HD))
     assert read(source, video).image.shape == (480, 640, 3)
     assert video.calls == ["open 0"]
+
+
+def test_damaged_images_are_skipped_and_counted_and_the_camera_stays_open(video: FakeVideo) -> None:
+    video.packets = iter([JPEG, WITH_GAP, JPEG[:-900], b"", JPEG])
+    video.period_s = 1 / 30
+    source = source_of(video, devices=NoDevices(), wanted=WantedMode(size_wh_px=VGA))
+    video.camera.granted = video.grants = CameraMode(fourcc="MJPG", size_wh_px=VGA, rate_hz=30.0)
+    source.open()
+    shots = [read(source, video, after_s=0.0) for _ in range(2)]
+    assert [shot.number for shot in shots] == [0, 4]
+    assert shots[1].captured_at_s == video.now_s
+    np.testing.assert_array_equal(shots[0].image, shots[1].image)
+    assert source.defect is not None
+    assert source.defect.code == "IMAGES_DAMAGED"
+    assert "1 of 2 images of camera 0 within 0.0 s (Corrupt JPEG data" in source.defect.message
+    assert video.calls == ["open 0"]
+
+
+def test_a_camera_of_damaged_images_only_is_reported_and_can_be_reopened(video: FakeVideo) -> None:
+    video.packets = itertools.chain([JPEG], itertools.repeat(JPEG[:700], 46), itertools.repeat(JPEG))
+    video.period_s = 1 / 30
+    video.camera.granted = video.grants = CameraMode(fourcc="MJPG", size_wh_px=VGA, rate_hz=30.0)
+    source = source_of(video, devices=NoDevices())
+    source.open()
+    read(source, video)
+    with pytest.raises(CaptureError) as caught:
+        source.read()
+    assert caught.value.code == "IMAGES_DAMAGED"
+    assert "46 of 46 images of camera 0 within 1.5 s" in caught.value.message
+    source.open()
+    assert source.defect is None
+    assert read(source, video).number == 47
+
+
+def test_a_camera_whose_jpegs_are_all_invalid_is_reopened_without_compression_in_the_same_size(
+    video: FakeVideo,
+) -> None:
+    video.packets = itertools.repeat(WITH_GAP)
+    video.period_s = 1 / 30
+    source = source_of(video, wanted=WantedMode(size_wh_px=HD))
+    source.open()
+    assert (video.requested.fourcc, video.requested.size_wh_px) == ("MJPG", HD)
+    with pytest.raises(CaptureError, match="damaged"):
+        source.read()
+    source.close()
+    video.packets = None
+    source.open()
+    assert (video.requested.fourcc, video.requested.size_wh_px, video.requested.rate_hz) == ("YUYV", HD, 10)
+    assert read(source, video).image.shape[:2] == HD[::-1]
+    # Damage after intact images comes from the connection, which more data would not make better.
+    video.packets = itertools.chain([JPEG], itertools.repeat(WITH_GAP))
+    other = source_of(video, wanted=WantedMode(size_wh_px=HD))
+    other.open()
+    read(other, video)
+    with pytest.raises(CaptureError, match="damaged"):
+        other.read()
+    other.open()
+    assert video.requested.fourcc == "MJPG"

@@ -15,7 +15,7 @@ import pytest
 from server.capture.address import source_from_text
 from server.capture.capture import Capture
 from server.capture.shot import Shot
-from server.capture.stream import MAX_TORN, StreamSource
+from server.capture.stream import StreamSource
 from server.errors import CaptureError
 from server.live import ImageClock, SourceState
 from tests.server.capture.http_image_server import ImageServer
@@ -29,17 +29,19 @@ AHEAD = 12
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sent:
-    """One image as sent: grey level, size, sent share, and stated length."""
+    """One image as sent: grey level, size, sent share, lost bytes, and stated length."""
 
     grey: int
     size_wh_px: tuple[int, int] = VGA
     content_ratio: float = 1.0
+    lost_bytes: int = 0
     claimed_ratio: float = 1.0
 
     @property
     def part(self) -> bytes:
         content = cv2.imencode(".jpg", grey_image(self.grey, self.size_wh_px))[1].tobytes()
         content = content[: int(len(content) * self.content_ratio)]
+        content = content[: len(content) // 2] + content[len(content) // 2 + self.lost_bytes :]
         head = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n"
         return head % int(len(content) * self.claimed_ratio) + content + b"\r\n"
 
@@ -154,24 +156,30 @@ def test_a_stream_that_always_comes_in_bursts_is_reported(
     assert "2 s" in caught.value.message
 
 
-def test_images_that_are_cut_off_are_left_out_and_when_all_are_it_is_reported(
-    serve: Callable[[Sequence[Sent]], LyingServer],
+@pytest.mark.parametrize(
+    ("content_ratio", "lost_bytes"), [(0.5, 0), (1.0, 300)], ids=["cut-off", "with-a-gap"]
+)
+def test_damaged_images_are_left_out_and_counted_and_when_all_are_it_is_reported(
+    serve: Callable[[Sequence[Sent]], LyingServer], content_ratio: float, lost_bytes: int
 ) -> None:
     sent = [
-        Sent(grey=40 + 4 * number, content_ratio=0.5 if number % 3 == 2 else 1.0)
-        for number in range(36 + AHEAD)
+        Sent(grey=40 + 4 * n)
+        if n % 3 != 2
+        else Sent(grey=40 + 4 * n, content_ratio=content_ratio, lost_bytes=lost_bytes)
+        for n in range(36 + AHEAD)
     ]
-    shots = read(source_of(serve(sent), []), 20)
+    source = source_of(serve(sent), [])
+    shots = read(source, 20)
     assert all((grey_of(shot) - 40) // 4 % 3 != 2 for shot in shots)
-    for shot in shots:
-        assert float(np.std(shot.image)) < 1.0, "a part of it is missing"
-    torn = [
+    assert source.defect is not None
+    assert source.defect.code == "IMAGES_DAMAGED"
+    all_damaged = [
         *[Sent(grey=90) for _ in range(8)],
-        *[Sent(grey=100 + n, content_ratio=0.5) for n in range(MAX_TORN + AHEAD)],
+        *[Sent(grey=100 + n, content_ratio=content_ratio, lost_bytes=lost_bytes) for n in range(50 + AHEAD)],
     ]
-    source = source_of(serve(torn), [])
+    source = source_of(serve(all_damaged), [])
     source.open()
-    assert code_after(source, 20) == "STREAM_TORN"
+    assert code_after(source, 20) == "IMAGES_DAMAGED"
 
 
 @pytest.mark.parametrize("claimed_ratio", [0.3, 3.0])

@@ -230,7 +230,7 @@ def under_tls(own: dict[str, Path], tmp_path: Path) -> Iterator[tuple[list[str],
     """`coaxial run` with a certificate; its output, and the certificate."""
     settings = {
         "server": {"tls": {"certificate": str(own["certificate"]), "key": str(own["key"])}},
-        "rehearsal": {"width": 1920, "height": 1080, "rate_hz": 10},
+        "rehearsal": {"width": 1280, "height": 720, "rate_hz": 10},
         "video": {"jpeg_quality": 100},
     }
     (tmp_path / "config.yaml").write_text(json.dumps(settings))

@@ -42,8 +42,14 @@ def error_sites() -> tuple[ErrorSite, ...]:
     return tuple(site for path in shown for site in _sites_in(path))
 
 
+@cache
+def parsed(path: Path) -> ast.Module:
+    """Return the syntax tree of a module."""
+    return ast.parse(path.read_text())
+
+
 def _sites_in(path: Path) -> Iterator[ErrorSite]:
-    tree = ast.parse(path.read_text())
+    tree = parsed(path)
     constants = {
         target.id: node.value
         for node in tree.body
@@ -56,7 +62,7 @@ def _sites_in(path: Path) -> Iterator[ErrorSite]:
             continue
         if len(node.args) >= 3:
             given, message, remedy = node.args[:3]
-        elif ast.unparse(node.func) in {"Problem", "Remark"}:
+        elif isinstance(node.func, ast.Name) and node.func.id in {"Problem", "Remark"}:
             named = {one.arg: one.value for one in node.keywords}
             given, message, remedy = (named.get(part) for part in PROBLEM)
         else:

@@ -7,7 +7,7 @@ from pathlib import Path
 from string import Formatter
 
 from server.texts.errors.phrases import PHRASES
-from tests.server.texts.error_sites import ROOT
+from tests.server.texts.error_sites import ROOT, parsed
 
 Function = ast.FunctionDef
 
@@ -34,7 +34,7 @@ def phrases_of(text: ast.expr) -> Iterator[str]:
 def modules() -> dict[Path, ast.Module]:
     """Return the syntax trees of tracker and server without its texts."""
     paths = [path for folder in ("server", "tracker") for path in sorted((ROOT / folder).rglob("*.py"))]
-    return {path: ast.parse(path.read_text()) for path in paths if "texts" not in path.parts}
+    return {path: parsed(path) for path in paths if "texts" not in path.parts}
 
 
 @cache
@@ -55,6 +55,9 @@ def given_phrases() -> Iterator[tuple[str, str, str]]:
     that this variable is assigned from, or in the calls of the function that has it as an argument.
     """
     for path, tree in modules().items():
+        text = path.read_text()
+        if not any(f'"{name}"' in text for name in PHRASES):
+            continue
         functions = [node for node in ast.walk(tree) if isinstance(node, Function)]
         for function in functions:
             for name, value in _contexts(function):

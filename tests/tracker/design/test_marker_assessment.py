@@ -141,10 +141,7 @@ def test_precision_equals_finite_differences_of_a_camera() -> None:
         for k in range(6):
             step = np.zeros(6)
             step[k] = 1e-5
-            moved: Rigid[Camera, Marker] = Rigid(
-                rotation=rotation_from_vector(step[3:]) @ pose.rotation,
-                translation_mm=pose.translation_mm + step[:3],
-            )
+            moved = pose.displaced(step)
             columns.append((camera.px_from_camera(moved.move_points(flat)) - at) / 1e-5)
         jacobian = np.column_stack(
             [*((column * normal).sum(axis=1) for column in columns), np.ones(len(flat))]

@@ -12,7 +12,6 @@ from tracker.geometry import (
     Vertebra,
     inverse_covariance,
     point_covariance_mm2,
-    rotation_from_vector,
     vector_from_rotation,
 )
 from tracker.registration.points import (
@@ -98,10 +97,7 @@ def test_the_covariance_of_the_inverse_is_that_of_inverted_samples() -> None:
     there: Rigid[Anchor, Vertebra] = Rigid.from_vector([0.4, -0.7, 1.1], [30.0, -20.0, 50.0])
     samples = []
     for shift_and_turn in rng.multivariate_normal(np.zeros(6), covariance, 4000):
-        moved: Rigid[Anchor, Vertebra] = Rigid(
-            rotation=rotation_from_vector(shift_and_turn[3:]) @ there.rotation,
-            translation_mm=there.translation_mm + shift_and_turn[:3],
-        )
+        moved = there.displaced(shift_and_turn)
         back, was = moved.inverse, there.inverse
         turn = vector_from_rotation(back.rotation @ was.rotation.T)
         samples.append(np.concatenate([back.translation_mm - was.translation_mm, turn]))

@@ -17,7 +17,6 @@ from tracker.geometry import (
     Vertebra,
     chained_covariance,
     inverse_covariance,
-    rotation_from_vector,
     skew,
     vector_from_rotation,
 )
@@ -74,12 +73,6 @@ def off(true: Rigid[Camera, Vertebra], found: Rigid[Camera, Vertebra]) -> Array:
     return np.concatenate([found.translation_mm - true.translation_mm, turn])
 
 
-def shaken(pose: Rigid[Camera, Marker], by: Array) -> Rigid[Camera, Marker]:
-    return Rigid(
-        rotation=rotation_from_vector(by[3:]) @ pose.rotation, translation_mm=pose.translation_mm + by[:3]
-    )
-
-
 def test_the_vertebra_is_placed_through_the_reference_as_it_is_seen_in_this_image() -> None:
     placed = concluded(SETUP, SEEN).vertebra
     assert isinstance(placed, VertebraPose)
@@ -109,11 +102,8 @@ def test_the_uncertainty_is_that_of_reference_and_registration_together() -> Non
     true = Rigid[Camera, Vertebra].from_matrix(CAMERA_FROM_REFERENCE.matrix @ REFERENCE_FROM_VERTEBRA.matrix)
     errors = []
     for one, other in zip(near, far, strict=True):
-        anchor: Rigid[Anchor, Vertebra] = Rigid(
-            rotation=rotation_from_vector(other[3:]) @ REFERENCE_FROM_VERTEBRA.rotation,
-            translation_mm=REFERENCE_FROM_VERTEBRA.translation_mm + other[:3],
-        )
-        seen = shaken(CAMERA_FROM_REFERENCE, one)
+        anchor: Rigid[Anchor, Vertebra] = REFERENCE_FROM_VERTEBRA.displaced(other)
+        seen = CAMERA_FROM_REFERENCE.displaced(one)
         found = Rigid[Camera, Vertebra].from_matrix(seen.matrix @ anchor.matrix)
         errors.append(off(true, found))
     placed = concluded(SETUP, SEEN).vertebra

@@ -51,10 +51,7 @@ def _marker_at(
     """The marker with the true tip at a place: truly, and as it is seen."""
     true: Rigid[Camera, Marker] = Rigid(rotation=turn, translation_mm=tip_in_camera_mm - turn @ TIP_MM)
     off = np.linalg.cholesky(MARKER_COVARIANCE) @ random.normal(size=6)
-    seen: Rigid[Camera, Marker] = Rigid(
-        rotation=rotation_from_vector(off[3:]) @ turn, translation_mm=true.translation_mm + off[:3]
-    )
-    return true, seen
+    return true, true.displaced(off)
 
 
 def _registered(

@@ -16,7 +16,7 @@ from tracker.camera.calibration.blocks import Block, derivatives, inverse, reduc
 from tracker.camera.calibration.fit import projected
 from tracker.camera.detection.view import BoardView
 from tracker.camera.model import CameraModel
-from tracker.geometry import Array, Camera, Pattern, Rigid, rotation_from_vector, skew, vector_from_rotation
+from tracker.geometry import Array, Camera, Pattern, Rigid, nearest_rotation, skew, vector_from_rotation
 
 STEPS, SMALL_RATIO = 40, 1e-10
 POSE = 6
@@ -162,7 +162,6 @@ def _moved(bundle: Bundle, shared: Array, own: Sequence[Array]) -> Bundle:
 
 
 def _stepped(pose: Rigid[Camera, From], step: Array) -> Rigid[Camera, From]:
-    rotation = rotation_from_vector(step[3:]) @ pose.rotation
-    # Orthonormalise, because small rotations accumulate rounding errors.
-    left, _, right = np.linalg.svd(rotation)
-    return Rigid(rotation=left @ right, translation_mm=pose.translation_mm + step[:3])
+    moved = pose.displaced(step)
+    # Small rotations accumulate rounding errors.
+    return Rigid(rotation=nearest_rotation(moved.rotation), translation_mm=moved.translation_mm)

@@ -338,8 +338,8 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
     ),
     "image_problem": (
         {
-            "en": "its {bytes} bytes are not a decodable image",
-            "de": "seine {bytes} Bytes sind kein dekodierbares Bild",
+            "en": "its {bytes} bytes are not an image, or a damaged one",
+            "de": "seine {bytes} Bytes sind kein Bild, oder ein beschädigtes",
         },
         {
             "en": "it cannot be read",

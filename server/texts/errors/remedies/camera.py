@@ -90,9 +90,12 @@ CAMERA: tuple[Text, ...] = (
         "Rechner nicht überlastet ist. Sie wird automatisch neu geöffnet.",
     },
     {
-        "en": "Restart the camera, or the device between it and this machine; it is reopened automatically.",
-        "de": "Die Kamera neu starten, oder das Gerät zwischen ihr und diesem Rechner; sie wird automatisch "
-        "neu geöffnet.",
+        "en": "Use a short cable and a USB port without a hub, or a wired network instead of Wi-Fi, and a "
+        "smaller image or lower rate. If all images are damaged on any port, the camera writes invalid "
+        "JPEGs: take a size for which coaxial cameras lists YUYV.",
+        "de": "Ein kurzes Kabel und einen USB-Anschluss ohne Hub verwenden, oder ein Netzkabel statt WLAN, "
+        "und ein kleineres Bild oder eine niedrigere Rate. Sind an jedem Anschluss alle Bilder beschädigt, "
+        "schreibt die Kamera ungültige JPEGs: eine Größe wählen, für die „coaxial cameras“ YUYV nennt.",
     },
     {
         "en": "Check the camera, its power and the network; it is retried automatically.",

@@ -7,7 +7,7 @@ import pytest
 from scipy.special import ndtr
 
 from tests.tracker.navigation.bones import ROD_CHANNEL, drill_at, rod
-from tracker.geometry import Array, Rigid, Tool, Vertebra, rotation_from_vector, skew
+from tracker.geometry import Array, Rigid, Tool, Vertebra, skew
 from tracker.navigation.clearance import WallDistanceField, bone_distance_field
 from tracker.navigation.clearance.rings import rings_to_wall
 from tracker.navigation.uncertainty import (
@@ -153,10 +153,7 @@ def _drawn(pose: Rigid[Vertebra, Tool], covariance: Array) -> tuple[Array, Array
     steps = np.random.default_rng(7).standard_normal((DRAWS, 6)) @ np.linalg.cholesky(covariance).T
     minimum = np.empty((2, DRAWS))
     for n, step in enumerate(steps):
-        moved: Rigid[Vertebra, Tool] = Rigid(
-            rotation=rotation_from_vector(step[3:]) @ pose.rotation,
-            translation_mm=pose.translation_mm + step[:3],
-        )
+        moved = pose.displaced(step)
         for m, ahead_mm in enumerate((0.0, 2.0)):
             rings = rings_to_wall(
                 moved, LEFT, _field("vertebra"), radius_mm=2.0, length_mm=100.0, ahead_mm=ahead_mm

@@ -13,7 +13,6 @@ from tracker.geometry import (
     Tool,
     Vertebra,
     point_covariance_mm2,
-    rotation_from_vector,
     vector_from_rotation,
 )
 from tracker.navigation.drill_reference import tool_in_vertebra
@@ -65,13 +64,7 @@ REGISTRATION_COVARIANCE = _covariance((0.3, 0.3, 0.5), (0.4, 0.3, 0.3))
 
 def _moved(pose: Rigid, covariance: Array, draws: int) -> list[Rigid]:  # pyrefly: ignore[implicit-any-type-argument]  # any frames
     root = np.linalg.cholesky(covariance + 1e-16 * np.eye(6))
-    return [
-        Rigid(
-            rotation=rotation_from_vector(step[3:]) @ pose.rotation,
-            translation_mm=pose.translation_mm + step[:3],
-        )
-        for step in RNG.standard_normal((draws, 6)) @ root.T
-    ]
+    return [pose.displaced(step) for step in RNG.standard_normal((draws, 6)) @ root.T]
 
 
 @pytest.mark.parametrize("with_reference", [True, False])
