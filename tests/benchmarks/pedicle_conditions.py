@@ -113,8 +113,10 @@ def _measured(condition: Condition, phantoms: int) -> _Found:
     found = _Found()
     for seed in range(1, phantoms + 1):
         made = _vertebra(condition, seed)
+        volume = _scanned(made, condition, "left", seed)
         for side in ("left", "right"):
-            volume = _scanned(made, condition, side, seed)
+            if condition.has_screw and side == "right":
+                volume = _scanned(made, condition, side, seed)
             aside = np.random.default_rng(seed).uniform(-1.0, 1.0, 3)
             click = made.seed_lps_mm(side, (3.0 * aside[0], aside[1], aside[2]))
             truth = made.truth(side)

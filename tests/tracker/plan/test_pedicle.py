@@ -12,6 +12,7 @@ from tracker.errors import NavigationError
 from tracker.geometry import rotation_from_vector
 from tracker.plan import PedicleMeasure, Volume, measure_pedicle
 from tracker.plan.pedicle import Side, axis_from_angles
+from tracker.plan.pedicle.outlines import planes_across
 from tracker.rehearsal.ct import (
     ContrastTube,
     PedicleTruth,
@@ -121,6 +122,25 @@ def test_a_solid_rod_without_cortex_is_measured_too(
     )
     assert off_by(measure, truth, volume).is_small
     assert (measure.entry_lps_mm[1], measure.front_lps_mm[1]) == pytest.approx((26.0, -42.0), abs=0.8)
+
+
+def test_a_medial_wall_three_times_as_thick_as_the_lateral_one_is_measured_to_its_outside() -> None:
+    axis = axis_from_angles("left", transverse_deg=12.0, sagittal_deg=7.0)
+    (left,), (up,) = planes_across(axis[None])
+    bone = rod_between_blocks(
+        width_mm=9.0, height_mm=13.0, axis=axis, rod_hu=900.0, block_hu=300.0, around_hu=40.0
+    )
+
+    def hu_at(p: np.ndarray) -> np.ndarray:
+        hu = bone(p)
+        oval = ((p @ left - 0.6) / 3.3) ** 2 + (p @ up / 5.3) ** 2
+        hu[(hu == 900.0) & (oval < 1.0)] = 100.0
+        return hu
+
+    volume = scan(hu_at, grid((0.7, 0.7, 1.0), noise_hu=25.0, blur_mm=0.4))
+    measure = measure_pedicle(volume, (0.5, 1.0, -1.0), "left")
+    assert (measure.width_mm, measure.height_mm) == pytest.approx((9.0, 13.0), abs=0.15)
+    assert max(measure.sd.width_mm, measure.sd.height_mm) < 0.2
 
 
 def test_clicks_anywhere_in_the_pedicle_give_the_same_pedicle() -> None:

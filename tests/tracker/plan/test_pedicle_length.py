@@ -5,12 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.special import ndtr
 
 from tracker.errors import PlanError
 from tracker.geometry import Array
 from tracker.plan import PedicleMeasure, measure_pedicle
+from tracker.plan.edge_model import Imaging
 from tracker.plan.pedicle.length import WallAhead
-from tracker.plan.pedicle.length.walls import _grazing_sd_mm
+from tracker.plan.pedicle.length.walls import _grazing_sd_mm, _wall
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.rejections import reject_implausible_length
 from tracker.plan.pedicle.solid import STEP_MM, Solid
 from tracker.rehearsal.ct import (
@@ -134,13 +137,50 @@ def test_a_front_wall_at_the_outline_is_accepted() -> None:
 
 @pytest.mark.parametrize(
     ("faced_ratio", "sd_mm"),
-    [pytest.param(1.0, 0.0, id="at right angles"), pytest.param(0.2, 4.0, id="along the surface")],
+    [
+        pytest.param(1.0, 0.0, id="at right angles"),
+        pytest.param(0.6, 0.0, id="obliquely"),
+        pytest.param(0.2, 3.0, id="along the surface"),
+    ],
 )
 def test_an_exit_along_a_surface_is_less_certain(faced_ratio: float, sd_mm: float) -> None:
-    """The end of a plane moved by a voxel of 1 mm to either side, beyond that of one met at right angles."""
+    """The end of a plane moved by a voxel of 1 mm to either side, beyond that of one met at 60 degrees."""
     direction = np.array([faced_ratio, np.sqrt(1.0 - faced_ratio**2), 0.0])
     nodes = STEP_MM * np.arange(40)
     depth = np.broadcast_to((20.0 * faced_ratio - nodes)[:, None, None], (40, 40, 40)).astype(np.float32)
     solid = Solid(corner_mm=np.zeros(3), depth_mm=depth)
-    found = _grazing_sd_mm(solid, np.array([0.0, 0.0, 5.0]), direction, distance_mm=20.0, voxel_mm=1.0)
+    found = _grazing_sd_mm(
+        solid, np.array([0.0, 0.0, 5.0]), direction, 20.0, max(faced_ratio, 0.5), voxel_mm=1.0
+    )
     assert found == pytest.approx(sd_mm, abs=0.2)
+
+
+@pytest.mark.parametrize("cortex_mm", [0.4, 1.2])
+def test_a_wall_is_at_the_outside_of_its_cortex_however_thin(cortex_mm: float) -> None:
+    """The half level of the profile lies 0.45 mm outside of a cortex of 0.4 mm."""
+    spacing_mm, wall_mm = 0.8, 16.0
+    sigma_mm = np.hypot(spacing_mm / np.sqrt(12.0), 0.4)
+    x = spacing_mm * np.arange(40)
+    hu = 40.0 + 860.0 * ndtr((wall_mm - x) / sigma_mm) - 800.0 * ndtr((wall_mm - cortex_mm - x) / sigma_mm)
+    block = np.broadcast_to(hu, (24, 24, 40)).astype(np.float32)
+    near = Neighbourhood(
+        block=block,
+        smooth=block,
+        lps_from_index=np.diag([spacing_mm, spacing_mm, spacing_mm, 1.0]),
+        noise_hu=10.0,
+        tissue_hu=40.0,
+        cortex_hu=900.0,
+    )
+    solid = Solid(
+        corner_mm=np.zeros(3),
+        depth_mm=np.broadcast_to((wall_mm - STEP_MM * np.arange(26.0))[:, None, None], (26, 16, 16)).astype(
+            np.float32
+        ),
+    )
+    imaging = Imaging(
+        cortex_hu=900.0, cortex_sd_hu=100.0, blur_mm=0.4, blur_sd_log=0.2, tissue_hu=40.0, noise_hu=10.0
+    )
+    start, axis = np.array([4.0, 9.0, 9.0]), np.array([1.0, 0.0, 0.0])
+    wall = _wall(near, solid, imaging, start, axis, from_mm=2.0, exit_mm=12.5)
+    assert wall.distance_mm == pytest.approx(wall_mm - 4.0, abs=0.1)
+    assert wall.sd_mm < 0.3

@@ -61,7 +61,7 @@ def test_the_canal_begins_at_a_true_pedicles_medial_wall_and_not_at_the_bodys_si
 
 
 def test_a_section_without_a_canal_beside_it_is_rejected_with_numbers() -> None:
-    isthmus = isthmus_of(bar(width_mm=8.0, height_mm=12.0, roll_deg=0.0), 0.5)
+    isthmus = isthmus_of(bar(width_mm=8.0, height_mm=12.0, roll_deg=0.0), (0.5, 0.5))
     rejections.reject_without_canal(isthmus, 6.9, 7.0)
     with pytest.raises(PlanError, match=r"goes on for 15 mm \(allowed 7 mm\)") as caught:
         rejections.reject_without_canal(isthmus, 15.0, 7.0)
@@ -72,7 +72,7 @@ def test_a_section_without_a_canal_beside_it_is_rejected_with_numbers() -> None:
 def test_the_smaller_extent_of_an_oblique_section_is_the_width_and_its_sd_covers_both(
     roll_deg: float,
 ) -> None:
-    one = isthmus_of(bar(width_mm=16.0, height_mm=11.0, roll_deg=roll_deg), 0.5)
+    one = isthmus_of(bar(width_mm=16.0, height_mm=11.0, roll_deg=roll_deg), (0.5, 0.5))
     assert one.is_oblique
     assert (one.width_mm, one.height_mm) == pytest.approx((11.0, 16.0), abs=0.05)
     assert one.width_sd_mm > 2.0
@@ -81,7 +81,7 @@ def test_the_smaller_extent_of_an_oblique_section_is_the_width_and_its_sd_covers
 
 
 def test_an_upright_section_is_as_certain_as_its_walls() -> None:
-    wide: Isthmus = isthmus_of(bar(width_mm=16.0, height_mm=11.0, roll_deg=15.0), 0.5)
+    wide: Isthmus = isthmus_of(bar(width_mm=16.0, height_mm=11.0, roll_deg=15.0), (0.5, 0.5))
     assert not wide.is_oblique
     assert wide.width_mm == pytest.approx(16.0, abs=0.05)
     assert wide.width_sd_mm < 0.15
@@ -93,7 +93,7 @@ def test_a_late_canal_gives_a_warning_before_it_is_rejected() -> None:
 
 
 def test_two_starts_agree_within_their_spreads_and_their_difference_widens_them() -> None:
-    one = isthmus_of(bar(width_mm=9.0, height_mm=14.0, roll_deg=0.0), 3.0)
+    one = isthmus_of(bar(width_mm=9.0, height_mm=14.0, roll_deg=0.0), (3.0, 3.0))
     near_by = replace(one, width_mm=10.5, centre_mm=one.centre_mm + 3.0 * one.axis)
     assert agrees(one, near_by)
     assert with_widened_uncertainty(one, near_by).width_sd_mm == pytest.approx(1.5 / np.sqrt(2.0), abs=0.05)
@@ -107,8 +107,8 @@ def test_two_starts_agree_within_their_spreads_and_their_difference_widens_them(
 
 
 def test_where_two_starts_differ_in_which_extent_is_the_width_the_lesser_is() -> None:
-    wide = isthmus_of(bar(width_mm=17.0, height_mm=12.0, roll_deg=35.0), 3.0)
-    high = isthmus_of(bar(width_mm=12.0, height_mm=17.0, roll_deg=0.0), 3.0)
+    wide = isthmus_of(bar(width_mm=17.0, height_mm=12.0, roll_deg=35.0), (3.0, 3.0))
+    high = isthmus_of(bar(width_mm=12.0, height_mm=17.0, roll_deg=0.0), (3.0, 3.0))
     both = with_widened_uncertainty(wide, high)
     assert (both.width_mm, both.height_mm) == (wide.height_mm, wide.width_mm)
     assert both.is_oblique

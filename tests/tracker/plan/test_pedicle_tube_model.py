@@ -59,6 +59,7 @@ def test_derivatives_are_those_of_differences() -> None:
     at[tube_model.CENTRE] = [0.2, 0.3, 0.1, -0.1, 0.2, 0.1]
     at[tube_model.GROWTH], at[tube_model.SHAPE] = [0.02, 0.1, 0.03, 0.08], [0.03, -0.02, 0.02, 0.01]
     at[tube_model.OUTSIDE] = [40.0, 20.0, -10.0, 5.0, 3.0]
+    at[tube_model.AROUND] = [0.2, -0.1]
     some = samples(rng, 400)
     _, jacobian = tube_model.model_hu(at, some)
     for n in range(tube_model.COUNT):

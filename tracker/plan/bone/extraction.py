@@ -9,10 +9,10 @@ import skimage
 from tracker.errors import PlanError, Remark
 from tracker.geometry import Array
 from tracker.plan.bone.block import MAX_VOXELS, Block, block_of
-from tracker.plan.bone.edge_model import fit_walls
 from tracker.plan.bone.region import Region
 from tracker.plan.bone.remarks import remarks_of
 from tracker.plan.bone.threshold import ThresholdProposal, proposed_threshold
+from tracker.plan.edge_model import fit_walls
 from tracker.plan.surface import Surface
 from tracker.plan.triangles import (
     connectivity_of,

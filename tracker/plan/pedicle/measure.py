@@ -9,9 +9,10 @@ from tracker.errors import Remark
 from tracker.geometry import Array
 from tracker.plan.pedicle import rejections, tube_model
 from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
-from tracker.plan.pedicle.fit import FittedBar, fit_bar, voxel_across_mm
+from tracker.plan.pedicle.fit import FittedBar, fit_bar, imaging_of, voxel_across_mm
 from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
+from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.plausibility import (
     agrees,
     beyond_medial_wall_mm,
@@ -34,7 +35,6 @@ from tracker.plan.pedicle.record import (
 )
 from tracker.plan.pedicle.remarks import (
     FEW_VOXELS,
-    MIN_FACED,
     canal_remarks,
     fit_remarks,
     front_remarks,
@@ -46,7 +46,6 @@ from tracker.plan.pedicle.sides import body_side, canal_side
 from tracker.plan.pedicle.solid import Solid, solid_around
 from tracker.plan.volume import Volume
 
-WALL_SD_VOXELS = 0.3
 MIN_FACED_SD = 0.15
 # A smaller rotation of the axis does not change a section.
 TURNED_DEG = 1.0
@@ -97,7 +96,7 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     rejections.reject_without_canal(isthmus, beyond_mm, max_beyond_mm(near))
     warnings += canal_remarks(beyond_mm, usual_beyond_mm(near))
     min_mm = min(isthmus.width_mm, isthmus.height_mm)
-    if min_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
+    if min_mm < FEW_VOXELS * voxel_across_mm(near, fitted)[0] or not fitted.fitted:
         isthmus = _agreed(near, solid, seed, named, isthmus)
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
 
@@ -218,10 +217,10 @@ def _record(
     isthmus: Isthmus,
     warnings: list[Remark],
 ) -> PedicleMeasure:
-    front = front_wall(near, solid, isthmus.centre_mm, isthmus.axis)
-    back = back_wall(near, solid, isthmus.centre_mm, isthmus.axis)
+    imaging = imaging_of(near, fitted, isthmus.axis)
+    front = front_wall(near, solid, imaging, isthmus.centre_mm, isthmus.axis)
+    back = back_wall(near, solid, imaging, isthmus.centre_mm, isthmus.axis)
     rejections.reject_implausible_length(front, back, MAX_DENT_MM + coarsest_mm(near))
-    voxel = float(np.linalg.norm(near.voxel_width_mm(isthmus.axis)))
     warnings += fit_remarks(near, solid, bar, fitted, isthmus) + length_remarks(front, back)
     warnings += front_remarks(front)
     return PedicleMeasure(
@@ -243,7 +242,7 @@ def _record(
             height_mm=isthmus.height_sd_mm,
             transverse_deg=isthmus.slope_sd_deg[0],
             sagittal_deg=isthmus.slope_sd_deg[1],
-            length_mm=_length_sd_mm(front, back, isthmus, WALL_SD_VOXELS * voxel),
+            length_mm=_length_sd_mm(front, back, isthmus),
             isthmus_mm=isthmus.centre_sd_mm,
         ),
         opens_ahead_mm=_opens_ahead_mm(bar, isthmus),
@@ -277,13 +276,11 @@ def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, sid
     return []
 
 
-def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_mm: float) -> float:
-    """Return the sd of the length: from each wall and from the axis where a wall is met obliquely."""
-    parts = []
-    for wall in (front, back):
-        faced = max(abs(wall.faced_ratio), MIN_FACED_SD)
-        obliquity = np.sqrt(1.0 - min(faced, 1.0) ** 2) / max(faced, MIN_FACED)
-        parts.append(wall_sd_mm / faced)
-        parts.append(wall.distance_mm * obliquity * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
-        parts.append(wall.sd_mm)
-    return float(np.linalg.norm(parts))
+def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus) -> float:
+    """Return the sd of the length: from each wall, and from the axis where a wall is met obliquely."""
+    (left,), (up,) = planes_across(isthmus.axis[None])
+    slope_mm = np.zeros(3)
+    for wall, way in ((front, -1.0), (back, 1.0)):
+        slope_mm += way * wall.distance_mm / max(abs(wall.faced_ratio), MIN_FACED_SD) * wall.outwards
+    of_axis = np.array([slope_mm @ left, slope_mm @ up]) * np.radians(isthmus.slope_sd_deg)
+    return float(np.linalg.norm([front.sd_mm, back.sd_mm, *of_axis]))

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 import numpy.typing as npt
 import scipy
@@ -14,6 +15,8 @@ NEAR_MM = 14.0
 # Metal is far above any bone; values are clipped here.
 MAX_HU = 1600.0
 SMOOTH_MM = 0.45
+# Slices from which noise is estimated.
+NOISE_SLICES = 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,7 +105,7 @@ def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
     cortex = float(np.percentile(near, 98.0)) if len(near) else tissue
     return Neighbourhood(
         block=block,
-        smooth=scipy.ndimage.gaussian_filter(block, sigma),
+        smooth=_smoothed(block, sigma),
         lps_from_index=affine,
         noise_hu=noise,
         tissue_hu=tissue,
@@ -110,20 +113,35 @@ def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
     )
 
 
+def _smoothed(block: npt.NDArray[np.float32], sigma: Array) -> npt.NDArray[np.float32]:
+    """Return a block convolved with a Gaussian of this sigma (3,) in voxels: slices, rows, columns.
+
+    OpenCV takes a fifth of the time of `scipy.ndimage.gaussian_filter`, a second in a fine CT.
+    """
+    z, y, x = (cv2.getGaussianKernel(2 * round(4.0 * one) + 1, one) for one in sigma)
+    within = np.empty_like(block)
+    for one, out in zip(block, within, strict=True):
+        cv2.sepFilter2D(one, -1, x, y, dst=out, borderType=cv2.BORDER_REFLECT)
+    columns = within.reshape(len(block), -1)
+    across = cv2.sepFilter2D(columns, -1, np.ones(1), z, borderType=cv2.BORDER_REFLECT)
+    return np.asarray(across, dtype=np.float32).reshape(block.shape)
+
+
 def _near(block: npt.NDArray[np.float32], affine: Array, centre: Array) -> Array:
     """Return the HU of the voxels within 14 mm."""
-    slices, rows, columns = block.shape
-    k, j, i = np.ogrid[:slices, :rows, :columns]
-    offset = affine[:3, 3] - centre
-    squared = np.zeros(block.shape, dtype=np.float32)
-    for row in range(3):
-        a = affine[row]
-        squared += ((a[0] * i + a[1] * j + a[2] * k + offset[row]) ** 2).astype(np.float32)
-    return np.asarray(block[squared < NEAR_MM**2], dtype=np.float64)
+    inverse = np.linalg.inv(affine[:3, :3])
+    middle, reach = inverse @ (centre - affine[:3, 3]), np.linalg.norm(inverse, axis=1) * NEAR_MM
+    low = np.maximum(np.floor(middle - reach).astype(int), 0)
+    high = np.ceil(middle + reach).astype(int) + 1
+    part = block[low[2] : high[2], low[1] : high[1], low[0] : high[0]]
+    index = np.moveaxis(np.indices(part.shape), 0, -1)[..., ::-1] + low
+    away = (index - middle) @ affine[:3, :3].T
+    return np.asarray(part[(away**2).sum(axis=-1) < NEAR_MM**2], dtype=np.float64)
 
 
 def _noise_hu(block: npt.NDArray[np.float32]) -> float:
     """Estimate noise from differences of neighbours within a slice; the median is robust to edges."""
-    step = np.abs(np.diff(block[:, ::2, ::2], n=2, axis=2))
-    real = step[block[:, ::2, 1:-1:1][:, :, ::2][:, :, : step.shape[2]] > -900.0]
+    some = block[:: max(1, len(block) // NOISE_SLICES), ::2]
+    step = np.abs(np.diff(some[:, :, ::2], n=2, axis=2))
+    real = step[some[:, :, 1:-1:2][:, :, : step.shape[2]] > -900.0]
     return float(np.median(real) / (0.6745 * np.sqrt(6.0))) if real.size else 0.0

@@ -131,11 +131,9 @@ def _behind_steps(near: Neighbourhood) -> int:
 def _widest_gap_deg(near_curve: npt.NDArray[np.bool_]) -> Array:
     """Return the longest run (m,) of rays without a wall on the curve, cyclic, in degrees."""
     rays = near_curve.shape[1]
-    twice = np.concatenate([near_curve, near_curve], axis=1)
-    run, longest = np.zeros(len(twice)), np.zeros(len(twice))
-    for column in twice.T:
-        run = np.where(column, 0.0, run + 1.0)
-        longest = np.maximum(longest, run)
+    column = np.arange(2 * rays)
+    on_curve = np.where(np.tile(near_curve, 2), column, -1)
+    longest = (column - np.maximum.accumulate(on_curve, axis=1)).max(axis=1)
     return np.asarray(np.minimum(longest, rays) * 360.0 / rays)
 
 

@@ -39,7 +39,7 @@ def fit_remarks(
 ) -> list[Remark]:
     """Return the warnings that concern section and axis."""
     out = []
-    voxels = isthmus.width_mm / voxel_across_mm(near, fitted)
+    voxels = isthmus.width_mm / voxel_across_mm(near, fitted)[0]
     if voxels < FEW_VOXELS:
         out.append(
             Remark(

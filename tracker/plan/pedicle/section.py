@@ -13,8 +13,9 @@ ROUND_RATIO = 1.08
 # Sd of the roll of the principal axes, because real sections are not ellipses. Above this probability that
 # the other axis is nearer to left-right, the smaller extent is used as the width.
 ROLL_SD_DEG, EITHER_RATIO = 6.0, 0.2
-# Model error of a wall position, as a share of a voxel, independent of noise.
-MODEL_VOXELS, MODEL_DEG = 0.06, 0.08
+# Error of the model that is common to a whole wall, so that residuals do not show it: of an extent as a ratio
+# of the voxel along it, and of the axis.
+MODEL_VOXELS, MODEL_DEG = 0.03, 0.05
 # Axis and wall errors for a misfit of this share of the contrast, over a short window.
 UNLIKE_RATIO, UNLIKE_DEG, UNLIKE_HALF_MM, MAX_UNLIKE_DEG = 0.1, 10.0, 3.0, 20.0
 
@@ -57,8 +58,8 @@ class Isthmus:
         return self.other_way_ratio > EITHER_RATIO
 
 
-def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
-    """Return the narrowest section of a fitted bar; `voxel_mm` is the voxel size across the axis."""
+def isthmus_of(fitted: FittedBar, voxel_mm: tuple[float, float]) -> Isthmus:
+    """Return the narrowest section of a fitted bar, in voxels of this size from side to side and upwards."""
     at = narrowest(fitted)
     numbers = _numbers(fitted.parameters, at, fitted.half_mm)
     spread = _spread(fitted, at)
@@ -76,7 +77,7 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
         + points[:, :1] * fitted.left
         + points[:, 1:] * fitted.up
     )
-    floor = MODEL_VOXELS * voxel_mm
+    floor = MODEL_VOXELS * np.array(voxel_mm)
     bent = np.degrees(_bend_per_mm(fitted)) * _place_sd_mm(fitted)
     slopes = np.degrees(spread[4:6])
     unlike = UNLIKE_DEG * (fitted.misfit_ratio / UNLIKE_RATIO) ** 3 * UNLIKE_HALF_MM / fitted.half_mm
@@ -91,9 +92,9 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
         width_mm=float(numbers[wide]),
         height_mm=float(numbers[high]),
         outline_mm=outline,
-        width_sd_mm=float(np.linalg.norm([spread[wide], floor, either])),
-        height_sd_mm=float(np.linalg.norm([spread[high], floor, either])),
-        centre_sd_mm=float(np.linalg.norm([spread[2], spread[3], floor])),
+        width_sd_mm=float(np.linalg.norm([spread[wide], floor[wide], either])),
+        height_sd_mm=float(np.linalg.norm([spread[high], floor[high], either])),
+        centre_sd_mm=float(np.linalg.norm([spread[2], spread[3], *floor])),
         slope_sd_deg=(float(np.hypot(slopes[0], model_deg)), float(np.hypot(slopes[1], model_deg))),
         bent_sd_deg=(float(bent[0]), float(bent[1])),
         other_way_ratio=other_way,

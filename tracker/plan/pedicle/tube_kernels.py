@@ -98,7 +98,7 @@ def blurred_edge(distance, box_mm, sigma):
 
 @compiled
 def model_with_jacobian(p, samples, offsets, hu, jacobian):
-    """Write the modelled HU (n,) and its derivative (n, 27) by the parameters, see `tube_model`.
+    """Write the modelled HU (n,) and its derivative (n, 29) by the parameters, see `tube_model`.
 
     A voxel is the mean of its parts, at these offsets (k, 3) from its centre; `samples` (n, 7) are the rows
     of `tube_model.Samples`. A wall that is blurred along itself moves towards its centre of curvature, by
@@ -106,15 +106,15 @@ def model_with_jacobian(p, samples, offsets, hu, jacobian):
     the half axes, are left out.
     """
     wall = np.empty(12)
-    thickness, blur_mm2, slice_blur_mm2 = math.exp(p[18]), math.exp(2.0 * p[20]), math.exp(2.0 * p[26])
+    blur_mm2, slice_blur_mm2 = math.exp(2.0 * p[20]), math.exp(2.0 * p[26])
     cortex, marrow = p[17], p[19]
     cr, sr = math.cos(p[8]), math.sin(p[8])
     ea, eb = math.exp(p[6]), math.exp(p[7])
     part_share = 1.0 / len(offsets)
-    row = np.empty(27)
+    row = np.empty(29)
     for n in range(len(samples)):
         hu[n] = 0.0
-        for m in range(27):
+        for m in range(29):
             jacobian[n, m] = 0.0
         box_mm, rest_mm2, beside_mm2 = samples[n, 3], samples[n, 4], samples[n, 5]
         through, within = samples[n, 6], 1.0 - samples[n, 6]
@@ -125,6 +125,10 @@ def model_with_jacobian(p, samples, offsets, hu, jacobian):
             wall_at(p, at, samples[n, 1] + offsets[k, 1], samples[n, 2] + offsets[k, 2], wall)
             nu, nv, c, s, u, v, a, b = wall[2], wall[3], wall[4], wall[5], wall[6], wall[7], wall[8], wall[9]
             support, bump_slope = wall[10], wall[11]
+            r2 = max(u * u + v * v, 1e-6)
+            r = math.sqrt(r2)
+            ca, sa = u / r, v / r
+            thickness = math.exp(p[18] + p[27] * ca + p[28] * sa)
             outer = wall[1]
             inner = outer / max(1.0 - outer * thickness, MIN_INNER_RADIUS_RATIO)
             into_wall, wall_by, wall_by_sigma = blurred_edge(
@@ -133,16 +137,15 @@ def model_with_jacobian(p, samples, offsets, hu, jacobian):
             into_core, core_by, core_by_sigma = blurred_edge(
                 wall[0] + thickness + 0.5 * inner * spread_mm2, box_mm, sigma
             )
-            r2 = max(u * u + v * v, 1e-6)
-            r = math.sqrt(r2)
-            ca, sa = u / r, v / r
             c2a, s2a = ca * ca - sa * sa, 2.0 * sa * ca
             outside = p[21] + p[22] * ca + p[23] * sa + p[24] * c2a + p[25] * s2a
             hu[n] += part_share * (outside + (cortex - outside) * into_wall + (marrow - cortex) * into_core)
             by_wall, by_core = (cortex - outside) * wall_by, (marrow - cortex) * core_by
             by_distance = by_wall + by_core
             beyond = 1.0 - into_wall
+            by_thickness = by_core * thickness
             by_angle = beyond * (p[23] * ca - p[22] * sa + 2.0 * (p[25] * c2a - p[24] * s2a))
+            by_angle += by_thickness * (p[28] * ca - p[27] * sa)
             # The foot point follows the point along the wall, and the bump with it.
             follow = bump_slope / max(1.0 + outer * wall[0], MIN_INNER_RADIUS_RATIO)
             by_u = by_distance * (nu + nv * follow) - by_angle * v / r2
@@ -163,12 +166,13 @@ def model_with_jacobian(p, samples, offsets, hu, jacobian):
             shape = -by_distance * support
             row[13], row[14] = shape * c * (4.0 * c * c - 3.0), shape * s * (3.0 - 4.0 * s * s)
             row[15], row[16] = shape * (1.0 - 8.0 * c * c * s * s), shape * 4.0 * c * s * (c * c - s * s)
-            row[17], row[18], row[19] = into_wall - into_core, by_core * thickness, into_core
+            row[17], row[18], row[19] = into_wall - into_core, by_thickness, into_core
             by_sigma = ((cortex - outside) * wall_by_sigma + (marrow - cortex) * core_by_sigma) / sigma
             by_spread = by_wall * outer + by_core * inner
             row[20] = (by_sigma * within + by_spread * through) * blur_mm2
             row[26] = (by_sigma * through + by_spread * within) * slice_blur_mm2
             row[21], row[22], row[23] = beyond, beyond * ca, beyond * sa
             row[24], row[25] = beyond * c2a, beyond * s2a
-            for m in range(27):
+            row[27], row[28] = by_thickness * ca, by_thickness * sa
+            for m in range(29):
                 jacobian[n, m] += part_share * row[m]

@@ -16,7 +16,8 @@ CORTEX, THICKNESS, MARROW, BLUR = 17, 18, 19, 20
 OUTSIDE = slice(21, 26)  # mean, cos, sin, cos 2, sin 2 around the outline
 SLICE_BLUR = 26  # across the slices, where BLUR is within them
 BLURS = [BLUR, SLICE_BLUR]
-COUNT = 27
+AROUND = slice(27, 29)  # cos, sin of the log thickness around the outline
+COUNT = 29
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,7 +69,7 @@ def wall_distance_mm(parameters: Array, along: Array, across_mm: Array) -> tuple
 
 
 def model_hu(parameters: Array, samples: Samples) -> tuple[Array, Array]:
-    """Return the modelled HU of each voxel (n,) and its derivatives (n, 27).
+    """Return the modelled HU of each voxel (n,) and its derivatives (n, 29).
 
     Outside, cortex and marrow, blurred by voxel and scanner; the wall is as curved as the outline.
     """

@@ -9,7 +9,7 @@ from tracker.plan.pedicle.outlines import planes_across
 STEP_MM = 0.2
 MAX_DISTANCE_MM = 64.0
 MAX_BEHIND_ENTRY_MM = 2.6
-DISC_MM = 0.9
+DISC_OFFSETS_MM: Array = 0.9 * np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
 
 
 def profile_along(near: Neighbourhood, start_mm: Array, direction: Array) -> Array:
@@ -19,8 +19,7 @@ def profile_along(near: Neighbourhood, start_mm: Array, direction: Array) -> Arr
     inside = near.contains(line)
     count = len(steps) if inside.all() else int(np.argmin(inside))
     (across,), (up,) = planes_across(direction[None])
-    offsets = DISC_MM * np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
-    shifted = line[None] + (offsets[:, :1] * across + offsets[:, 1:] * up)[:, None, :]
+    shifted = line[None] + (DISC_OFFSETS_MM @ np.stack([across, up]))[:, None, :]
     return np.asarray(near.smooth_hu(shifted).mean(axis=0)[:count])
 
 

@@ -5,9 +5,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracker.geometry import Array
+from tracker.plan.edge_model import WALL, WALL_SD_MM, Imaging, profiles_of, solve
 from tracker.plan.pedicle.length.body import outline_front
 from tracker.plan.pedicle.length.entry import arch_back_mm
-from tracker.plan.pedicle.length.profile import MAX_DISTANCE_MM, STEP_MM, behind_steps, falls, profile_along
+from tracker.plan.pedicle.length.profile import (
+    DISC_OFFSETS_MM,
+    MAX_DISTANCE_MM,
+    STEP_MM,
+    behind_steps,
+    falls,
+    profile_along,
+)
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import angles, planes_across
 from tracker.plan.pedicle.plausibility import coarsest_mm
@@ -27,6 +35,8 @@ NO_FRONT_FROM_MM = 24.0
 LEFT_DEPTH_MM, LEFT_FROM_MM, LEFT_FOR_MM = 1.0, 0.3, 2.0
 # Bone that extends this far behind the arch is a process; its end is uncertain by more than a voxel.
 PROCESS_MM, ARCH_SD_MM = 2.5, 1.5
+# Minimum cosine between the line and the normal of a wall that is fitted.
+MIN_PLANE_RATIO = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,7 +49,7 @@ class WallAhead:
         outwards: unit (3,), the wall's normal; the direction itself without a wall.
         faced_ratio: cosine between direction and normal: 1 at perpendicular incidence, 0 along the wall.
         beyond_mm: extent of bone-like voxels behind it: a process, or an adjacent vessel.
-        sd_mm: of the distance, in addition to that of voxels and axis.
+        sd_mm: of the distance, in addition to that of the axis.
         chord_mm: a front wall that lies behind this distance dents the body; 0 if not known.
     """
 
@@ -52,7 +62,9 @@ class WallAhead:
     chord_mm: float = 0.0
 
 
-def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
+def front_wall(
+    near: Neighbourhood, solid: Solid, imaging: Imaging, isthmus_mm: Array, axis: Array
+) -> WallAhead:
     """Return where the axis leaves the body anteriorly, by the outline of the whole body.
 
     Where a contrast-filled vessel touches the body, the solid includes it, and the outline does not.
@@ -63,9 +75,9 @@ def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array
     if at_mm is not None and _is_in_void(near, isthmus_mm, axis, at_mm):
         at_mm = None
     if at_mm is None or (exit_mm is not None and exit_mm <= at_mm):
-        wall = _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, exit_mm)
+        wall = _wall(near, solid, imaging, isthmus_mm, axis, FRONT_FROM_MM, exit_mm)
         return replace(wall, chord_mm=outline.chord_mm)
-    wall = _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, at_mm)
+    wall = _wall(near, solid, imaging, isthmus_mm, axis, FRONT_FROM_MM, at_mm)
     beyond_mm = (MAX_DISTANCE_MM if exit_mm is None else exit_mm) - at_mm
     if beyond_mm > NEAR_EXIT_MM:
         faced = float(outline.outwards @ axis)
@@ -73,7 +85,9 @@ def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array
     return replace(wall, chord_mm=outline.chord_mm)
 
 
-def back_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
+def back_wall(
+    near: Neighbourhood, solid: Solid, imaging: Imaging, isthmus_mm: Array, axis: Array
+) -> WallAhead:
     """Return where the axis, followed backwards, leaves the arch: the entry.
 
     If the axis continues into a process, the entry is where the arch around it ends, as a surgeon opens it.
@@ -81,7 +95,7 @@ def back_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array)
     exit_mm = _exit_mm(solid, isthmus_mm, -axis, ENTRY_FROM_MM)
     if exit_mm is not None and _is_in_open_marrow(near, solid, isthmus_mm, -axis, exit_mm):
         exit_mm = None
-    wall = _wall(near, solid, isthmus_mm, -axis, ENTRY_FROM_MM, exit_mm)
+    wall = _wall(near, solid, imaging, isthmus_mm, -axis, ENTRY_FROM_MM, exit_mm)
     arch_mm = arch_back_mm(solid, isthmus_mm, axis)
     if arch_mm is None or wall.distance_mm <= arch_mm + PROCESS_MM:
         return wall
@@ -101,6 +115,7 @@ def back_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array)
 def _wall(
     near: Neighbourhood,
     solid: Solid,
+    imaging: Imaging,
     isthmus_mm: Array,
     direction: Array,
     from_mm: float,
@@ -108,7 +123,8 @@ def _wall(
 ) -> WallAhead:
     """Return the wall near the end of the solid, refined by the profile; else from the profile alone.
 
-    Enclosed soft regions, as marrow, belong to the solid, so that no gap within the body ends it.
+    Enclosed soft regions, as marrow, belong to the solid, so that no gap within the body ends it. The half
+    level of a profile lies outside of a thin wall, by up to a voxel, so a blurred cortex is fitted to it.
     """
     if exit_mm is not None:
         found = bool(near.contains(isthmus_mm + (exit_mm + 1.0) * direction))
@@ -120,14 +136,39 @@ def _wall(
         profile = profile_along(near, isthmus_mm, direction)
         some = [one for one, _ in falls(near, profile, min_hu=near.min_fall_hu, behind=1)]
         distance = min([one for one in some if one >= NO_FRONT_FROM_MM], default=distance)
-    outwards = solid.outwards_at(isthmus_mm + distance * direction) if found else direction
-    return WallAhead(
-        distance_mm=distance,
-        found=found,
-        outwards=outwards,
-        faced_ratio=float(outwards @ direction),
-        sd_mm=_grazing_sd_mm(solid, isthmus_mm, direction, distance, coarsest_mm(near)),
+        return WallAhead(
+            distance_mm=distance, found=False, outwards=direction, faced_ratio=1.0, sd_mm=WALL_SD_MM
+        )
+    outwards = solid.outwards_at(isthmus_mm + distance * direction)
+    faced = float(outwards @ direction)
+    # A wall met more obliquely is not certainly the one where the line ends.
+    moved_mm, sd_mm = (
+        _edge_mm(near, imaging, isthmus_mm + distance * direction, outwards)
+        if faced >= MIN_PLANE_RATIO
+        else (0.0, WALL_SD_MM)
     )
+    plane_ratio = max(faced, MIN_PLANE_RATIO)
+    grazing_sd_mm = _grazing_sd_mm(solid, isthmus_mm, direction, distance, plane_ratio, coarsest_mm(near))
+    return WallAhead(
+        distance_mm=distance + moved_mm / plane_ratio,
+        found=True,
+        outwards=outwards,
+        faced_ratio=faced,
+        sd_mm=float(np.hypot(sd_mm / plane_ratio, grazing_sd_mm)),
+    )
+
+
+def _edge_mm(near: Neighbourhood, imaging: Imaging, point_mm: Array, outwards: Array) -> tuple[float, float]:
+    """Return the offset of the outer wall from a point along a normal, and its standard deviation."""
+    (across,), (up,) = planes_across(outwards[None])
+    points = point_mm + DISC_OFFSETS_MM @ np.stack([across, up])
+    normals = np.tile(outwards, (len(points), 1))
+    profiles = profiles_of(near.block, near.lps_from_index, points, normals, near.noise_hu)
+    parameters, sd, _ = solve(profiles, imaging)
+    offsets = parameters[:, WALL]
+    # What is uncertain in the imaging is common to all profiles.
+    own_sd_mm = np.std(offsets) / np.sqrt(len(offsets))
+    return float(np.median(offsets)), float(np.hypot(np.median(sd[:, WALL]), own_sd_mm))
 
 
 def _exit_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) -> float | None:
@@ -168,23 +209,35 @@ def _is_in_void(near: Neighbourhood, isthmus_mm: Array, axis: Array, distance_mm
 
 
 def _grazing_sd_mm(
-    solid: Solid, isthmus_mm: Array, direction: Array, distance_mm: float, voxel_mm: float
+    solid: Solid,
+    isthmus_mm: Array,
+    direction: Array,
+    distance_mm: float,
+    plane_ratio: float,
+    voxel_mm: float,
 ) -> float:
     """Return the sd of an exit that the line approaches along a surface, as of the arch beside a facet.
 
     The surface of the solid is uncertain by up to a voxel, and a narrower recess is filled. Moved by a voxel,
-    it ends the line elsewhere; the range beyond that of a wall met at right angles is the uncertainty.
+    it ends the line elsewhere; the range beyond that of a plane wall with this cosine between line and
+    normal is the uncertainty.
     """
     along = np.arange(0.0, MAX_DISTANCE_MM, STEP_MM)
     depth = solid.depth_at(isthmus_mm + along[:, None] * direction)
     exit_step = min(round(distance_mm / STEP_MM), len(along) - 1)
-    level_mm = min(voxel_mm, 0.5 * float(depth[: exit_step + 1].max()))
+    bone = np.flatnonzero(depth[: exit_step + 1] > 0.0)
+    if not len(bone):
+        return 0.0
+    # Marrow that leaks out of the solid may lie before the wall.
+    gaps = np.flatnonzero(depth[: bone[-1]] <= 0.0)
+    first = int(gaps[-1]) + 1 if len(gaps) else 0
+    level_mm = min(voxel_mm, 0.5 * float(depth[first : exit_step + 1].max()))
     inside = np.flatnonzero(depth[: exit_step + 1] >= level_mm)
     outside = np.flatnonzero(depth[exit_step:] <= -level_mm)
-    if not len(inside) or not len(outside):
+    if not len(outside):
         return 0.0
     range_mm = (exit_step + int(outside[0]) - int(inside[-1])) * STEP_MM
-    return max(0.0, 0.5 * range_mm - level_mm)
+    return max(0.0, 0.5 * range_mm - level_mm / plane_ratio)
 
 
 def _fall_near(near: Neighbourhood, isthmus_mm: Array, direction: Array, exit_mm: float) -> float:

@@ -8,7 +8,7 @@ import pytest
 from scipy.special import ndtr
 
 from tracker.geometry import Array
-from tracker.plan.bone.edge_model import EdgeFit, fit_walls
+from tracker.plan.edge_model import EdgeFit, fit_walls
 
 SPACING_MM, WALL_MM = 0.6, 12.2
 TISSUE_HU, CORTEX_HU, MARROW_HU = 40.0, 900.0, 160.0
