@@ -12,6 +12,7 @@ from tracker.geometry import Array
 from tracker.plan import PedicleMeasure, measure_pedicle
 from tracker.plan.edge_model import Imaging
 from tracker.plan.pedicle.length import WallAhead
+from tracker.plan.pedicle.length.entry import arch_back_mm
 from tracker.plan.pedicle.length.walls import _grazing_sd_mm, _wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.rejections import reject_implausible_length
@@ -184,3 +185,19 @@ def test_a_wall_is_at_the_outside_of_its_cortex_however_thin(cortex_mm: float) -
     wall = _wall(near, solid, imaging, start, axis, from_mm=2.0, exit_mm=12.5)
     assert wall.distance_mm == pytest.approx(wall_mm - 4.0, abs=0.1)
     assert wall.sd_mm < 0.3
+
+
+@pytest.mark.parametrize(("hole_mm", "face_mm"), [(0.0, 12.0), (3.0, None)])
+def test_marrow_that_is_missing_on_the_axis_is_not_the_back_of_the_arch(
+    hole_mm: float, face_mm: float | None
+) -> None:
+    # A pedicle, an arch up to 12 mm, and a process on its axis; thin trabeculae leave a hole in the solid.
+    side = np.arange(-14.0, 14.1, STEP_MM)
+    behind = np.arange(-4.0, 34.1, STEP_MM)
+    x, y, z = np.meshgrid(side, behind, side, indexing="ij")
+    beside = np.hypot(x, z)
+    depth = np.where(y < 12.0, np.where(y < 6.0, 5.0, 9.0), 3.0) - beside
+    depth = np.where(np.hypot(beside, y - 5.0) < hole_mm, -1.0, depth)
+    solid = Solid(corner_mm=np.array([side[0], behind[0], side[0]]), depth_mm=depth.astype(np.float32))
+    found = arch_back_mm(solid, np.zeros(3), np.array([0.0, -1.0, 0.0]))
+    assert found == (None if face_mm is None else pytest.approx(face_mm, abs=0.5))

@@ -18,13 +18,16 @@ def arch_back_mm(solid: Solid, isthmus_mm: Array, axis: Array) -> float | None:
 
     The area of sections across the axis, within 10 mm of it, increases from the isthmus into the arch, and
     falls to half of its maximum at the arch's posterior surface. A process around the axis is narrower, and
-    is excluded.
+    is excluded. None where the bone on the axis itself ends before: without a process, or in marrow that is
+    missing in the solid.
     """
     area = _areas_mm2(solid, isthmus_mm, axis)
+    if not len(area):
+        return None
     widest = int(np.argmax(area))
     limit = FACE_SHARE * area[widest]
     below = np.flatnonzero(area[widest:] < limit)
-    if not len(below) or area[widest] <= 0.0:
+    if not len(below):
         return None
     row = widest + int(below[0])
     share = (area[row - 1] - limit) / max(area[row - 1] - area[row], 1e-9)
@@ -32,7 +35,7 @@ def arch_back_mm(solid: Solid, isthmus_mm: Array, axis: Array) -> float | None:
 
 
 def _areas_mm2(solid: Solid, isthmus_mm: Array, axis: Array) -> Array:
-    """Return the area (n,) of the bone that contains the axis in each section; 0 beyond the bone."""
+    """Return the area (n,) of the bone that contains the axis in each section, up to where it ends."""
     (across,), (up,) = planes_across(axis[None])
     grid = np.arange(-DISC_MM, DISC_MM + 0.1, GRID_MM)
     x, y = np.meshgrid(grid, grid)
@@ -41,10 +44,9 @@ def _areas_mm2(solid: Solid, isthmus_mm: Array, axis: Array) -> Array:
     plane = isthmus_mm + x[..., None] * across + y[..., None] * up
     along = np.arange(0.0, MAX_DISTANCE_MM, STEP_MM)
     bone = solid.depth_at(plane - along[:, None, None, None] * axis) > 0.0
-    area = np.zeros(len(along))
-    for row, section in enumerate(bone):
-        if not section[middle, middle]:
-            break
+    ends = np.flatnonzero(~bone[:, middle, middle])
+    area = []
+    for section in bone[: ends[0] if len(ends) else None]:
         label, _ = scipy.ndimage.label(section)
-        area[row] = float(((label == label[middle, middle]) & disc).sum()) * GRID_MM**2
-    return area
+        area.append(float(((label == label[middle, middle]) & disc).sum()) * GRID_MM**2)
+    return np.array(area)
