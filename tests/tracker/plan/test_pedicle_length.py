@@ -156,35 +156,51 @@ def test_an_exit_along_a_surface_is_less_certain(faced_ratio: float, sd_mm: floa
     assert found == pytest.approx(sd_mm, abs=0.2)
 
 
-@pytest.mark.parametrize("cortex_mm", [0.4, 1.2])
-def test_a_wall_is_at_the_outside_of_its_cortex_however_thin(cortex_mm: float) -> None:
-    """The half level of the profile lies 0.45 mm outside of a cortex of 0.4 mm."""
-    spacing_mm, wall_mm = 0.8, 16.0
-    sigma_mm = np.hypot(spacing_mm / np.sqrt(12.0), 0.4)
-    x = spacing_mm * np.arange(40)
-    hu = 40.0 + 860.0 * ndtr((wall_mm - x) / sigma_mm) - 800.0 * ndtr((wall_mm - cortex_mm - x) / sigma_mm)
+WALL_MM, SPACING_MM = 16.0, 0.8
+IMAGING = Imaging(
+    cortex_hu=900.0, cortex_sd_hu=100.0, blur_mm=0.4, blur_sd_log=0.2, tissue_hu=40.0, noise_hu=10.0
+)
+
+
+def bone_up_to_a_wall(cortex_mm: float) -> Neighbourhood:
+    """Bone up to x = 16 mm, in voxels of 0.8 mm."""
+    sigma_mm = np.hypot(SPACING_MM / np.sqrt(12.0), 0.4)
+    x = SPACING_MM * np.arange(40)
+    hu = 40.0 + 860.0 * ndtr((WALL_MM - x) / sigma_mm) - 800.0 * ndtr((WALL_MM - cortex_mm - x) / sigma_mm)
     block = np.broadcast_to(hu, (24, 24, 40)).astype(np.float32)
-    near = Neighbourhood(
+    return Neighbourhood(
         block=block,
         smooth=block,
-        lps_from_index=np.diag([spacing_mm, spacing_mm, spacing_mm, 1.0]),
+        lps_from_index=np.diag([SPACING_MM, SPACING_MM, SPACING_MM, 1.0]),
         noise_hu=10.0,
         tissue_hu=40.0,
         cortex_hu=900.0,
     )
-    solid = Solid(
-        corner_mm=np.zeros(3),
-        depth_mm=np.broadcast_to((wall_mm - STEP_MM * np.arange(26.0))[:, None, None], (26, 16, 16)).astype(
-            np.float32
-        ),
-    )
-    imaging = Imaging(
-        cortex_hu=900.0, cortex_sd_hu=100.0, blur_mm=0.4, blur_sd_log=0.2, tissue_hu=40.0, noise_hu=10.0
-    )
+
+
+def solid_up_to(normal: Array, at_mm: float) -> Solid:
+    """All that lies this far along a direction at most."""
+    points = STEP_MM * np.moveaxis(np.indices((26, 26, 16)), 0, -1)
+    return Solid(corner_mm=np.zeros(3), depth_mm=(at_mm - points @ normal).astype(np.float32))
+
+
+@pytest.mark.parametrize("cortex_mm", [0.4, 1.2])
+def test_a_wall_is_at_the_outside_of_its_cortex_however_thin(cortex_mm: float) -> None:
+    """The half level of the profile lies 0.45 mm outside of a cortex of 0.4 mm."""
     start, axis = np.array([4.0, 9.0, 9.0]), np.array([1.0, 0.0, 0.0])
-    wall = _wall(near, solid, imaging, start, axis, from_mm=2.0, exit_mm=12.5)
-    assert wall.distance_mm == pytest.approx(wall_mm - 4.0, abs=0.1)
+    near, solid = bone_up_to_a_wall(cortex_mm), solid_up_to(axis, WALL_MM)
+    wall = _wall(near, solid, IMAGING, start, axis, from_mm=2.0, exit_mm=12.5)
+    assert wall.distance_mm == pytest.approx(WALL_MM - 4.0, abs=0.1)
     assert wall.sd_mm < 0.3
+
+
+def test_an_endplate_beside_a_disc_that_the_solid_fills_is_met_obliquely() -> None:
+    """The length then depends on the wall by the inverse of the cosine, as stated."""
+    start, axis = np.array([14.0, 4.0, 9.0]), np.array([0.25, np.sqrt(1.0 - 0.25**2), 0.0])
+    near, solid = bone_up_to_a_wall(1.0), solid_up_to(axis, axis @ start + 9.0)
+    wall = _wall(near, solid, IMAGING, start, axis, from_mm=2.0, exit_mm=9.0)
+    assert wall.faced_ratio == pytest.approx(0.25, abs=0.05)
+    assert wall.sd_mm > 2.0
 
 
 @pytest.mark.parametrize(("hole_mm", "face_mm"), [(0.0, 12.0), (3.0, None)])

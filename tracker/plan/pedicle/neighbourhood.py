@@ -17,6 +17,8 @@ MAX_HU = 1600.0
 SMOOTH_MM = 0.45
 # Slices from which noise is estimated.
 NOISE_SLICES = 64
+# Half the distance over which the normal of a wall is taken.
+NORMAL_MM = 1.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,6 +83,13 @@ class Neighbourhood:
             self.smooth, flat.T, output=np.float64, order=1, mode="nearest"
         )
         return np.asarray(values.reshape(index.shape[:-1]))
+
+    def outwards_at(self, point_lps_mm: Array) -> Array:
+        """Return the direction (3,) in which HU fall around a point, averaged over a few millimetres."""
+        offsets = NORMAL_MM * np.concatenate([np.eye(3), -np.eye(3)])
+        hu = self.smooth_hu(point_lps_mm + offsets)
+        normal = hu[3:] - hu[:3]
+        return np.asarray(normal / max(float(np.linalg.norm(normal)), 1e-9))
 
 
 def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:

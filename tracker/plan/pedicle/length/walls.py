@@ -35,8 +35,8 @@ NO_FRONT_FROM_MM = 24.0
 LEFT_DEPTH_MM, LEFT_FROM_MM, LEFT_FOR_MM = 1.0, 0.3, 2.0
 # Bone that extends this far behind the arch is a process; its end is uncertain by more than a voxel.
 PROCESS_MM, ARCH_SD_MM = 2.5, 1.5
-# Minimum cosine between the line and the normal of a wall that is fitted.
-MIN_PLANE_RATIO = 0.5
+# Minimum cosine between the line and the normal of a wall that is fitted, and in the stated error of others.
+MIN_PLANE_RATIO, MIN_FACED_RATIO = 0.5, 0.15
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,13 +139,15 @@ def _wall(
         return WallAhead(
             distance_mm=distance, found=False, outwards=direction, faced_ratio=1.0, sd_mm=WALL_SD_MM
         )
-    outwards = solid.outwards_at(isthmus_mm + distance * direction)
+    point = isthmus_mm + distance * direction
+    outwards, visible = solid.outwards_at(point), near.outwards_at(point)
+    # The solid fills gaps between bones, as a disc, and its surface is then not the wall.
+    if visible @ direction < MIN_PLANE_RATIO:
+        outwards = visible
     faced = float(outwards @ direction)
     # A wall met more obliquely is not certainly the one where the line ends.
     moved_mm, sd_mm = (
-        _edge_mm(near, imaging, isthmus_mm + distance * direction, outwards)
-        if faced >= MIN_PLANE_RATIO
-        else (0.0, WALL_SD_MM)
+        _edge_mm(near, imaging, point, outwards) if faced >= MIN_PLANE_RATIO else (0.0, WALL_SD_MM)
     )
     plane_ratio = max(faced, MIN_PLANE_RATIO)
     grazing_sd_mm = _grazing_sd_mm(solid, isthmus_mm, direction, distance, plane_ratio, coarsest_mm(near))
@@ -154,7 +156,7 @@ def _wall(
         found=True,
         outwards=outwards,
         faced_ratio=faced,
-        sd_mm=float(np.hypot(sd_mm / plane_ratio, grazing_sd_mm)),
+        sd_mm=float(np.hypot(sd_mm / max(faced, MIN_FACED_RATIO), grazing_sd_mm)),
     )
 
 
