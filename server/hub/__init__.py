@@ -13,4 +13,5 @@ connection.py  connection to the NATS server
 publisher.py   the theatre's process
 theatre.py     what the web process gives to it
 watcher.py     the hub: newest message of each theatre, and how old it is at most
+theatres.py    list of all theatres
 """

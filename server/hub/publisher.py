@@ -5,6 +5,7 @@ last, and goes on from there. Live messages are sent only on a connection, and n
 """
 
 import asyncio
+import logging
 import secrets
 import threading
 import time
@@ -87,6 +88,8 @@ class Publisher:
         self._numbers = dict.fromkeys(Leaf, 0)
         self._newest: Outgoing | None = None
         self._problem: NavigationError | None = None
+        # What it logs reaches the log as our problem, in a sentence.
+        logging.getLogger("nats").setLevel(logging.CRITICAL)
         self._loop = asyncio.new_event_loop()
         self._arrived = asyncio.Event()
         self._stop = asyncio.Event()
@@ -248,11 +251,8 @@ class _Session:
 
     async def _send_live(self, leaf: Leaf, content: bytes, *, captured_at_s: float | None) -> None:
         self._numbers[leaf] += 1
-        header = Header(
-            run=self._claim.run,
-            number=self._numbers[leaf],
-            age_ms=None if captured_at_s is None else (time.monotonic() - captured_at_s) * 1000.0,
-            echoes=self._beats.echoes(now_s=elapsed_s()),
+        header = header_now(
+            self._claim.run, self._numbers[leaf], captured_at_s=captured_at_s, beats=self._beats
         )
         await self._link.client.publish(self._subject(leaf), packed(header, content))
 
@@ -299,6 +299,17 @@ class _Session:
 
     def _subject(self, leaf: Leaf) -> str:
         return self._link.address.hospital.subject(self._theatre, leaf)
+
+
+def header_now(run: str, number: int, *, captured_at_s: float | None, beats: Beats) -> Header:
+    """Return the header of a message that is sent now.
+
+    The age is that after the beats were held: between the two clocks the thread may wait for milliseconds,
+    which must not be missing in the age at the hub, and may be counted twice.
+    """
+    echoes = beats.echoes(now_s=elapsed_s())
+    age_ms = None if captured_at_s is None else (time.monotonic() - captured_at_s) * 1000.0
+    return Header(run=run, number=number, age_ms=age_ms, echoes=echoes)
 
 
 def _first(group: BaseExceptionGroup[Any]) -> Any:  # noqa: ANN401  one of the errors that the group was made of

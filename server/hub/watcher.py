@@ -44,6 +44,7 @@ class Watcher:
 
     Attributes:
         newest: The newest message by theatre and subject.
+        id: Of the clock by which delays are measured.
         messages: Number of messages received.
         problem: Why nothing is received now; None while connected.
 
@@ -51,27 +52,32 @@ class Watcher:
         address: The NATS server.
         leaves: Subjects to receive.
         theatre: The theatre; `*` for all.
-        sends_beats: Whether this hub measures delays.
+        clock_of: Id of another hub in this process, whose beats measure the delays; None to send own ones.
     """
 
     def __init__(
-        self, address: HubAddress, leaves: tuple[Leaf, ...], *, theatre: str = "*", sends_beats: bool = True
+        self,
+        address: HubAddress,
+        leaves: tuple[Leaf, ...],
+        *,
+        theatre: str = "*",
+        clock_of: str | None = None,
     ) -> None:
-        self.id = secrets.token_hex(4)
+        self.id = clock_of or secrets.token_hex(4)
         self.newest: dict[tuple[str, Leaf], Received] = {}
         self.messages = 0
         self.problem: HubError | None = None
         self._address = address
         self._leaves = leaves
         self._theatre = theatre
-        self._sends_beats = sends_beats
+        self._sends_beats = clock_of is None
         self._arrived = asyncio.Event()
 
     async def run(self) -> None:
         """Receive until cancelled; connects again whenever the connection is lost."""
         while True:
             try:
-                async with self._address.connected(f"hub-{self.id}") as link:
+                async with self._address.connected(f"hub-{secrets.token_hex(4)}") as link:
                     await self._watch(link)
             except HubError as error:
                 self.problem = error

@@ -1,5 +1,6 @@
 """The age of a message is never understated, whatever the clocks of theatre and hub show."""
 
+import itertools
 from math import inf, nan
 
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import strategies as st
 
 from server.hub.delays import arrival_of
 from server.hub.envelope import Beats, Echo, Header, packed, unpacked
+from server.hub.publisher import header_now
 
 times_s = st.floats(0.0, 30.0)
 clocks_s = st.floats(0.0, 1e6)
@@ -37,6 +39,22 @@ def test_the_stated_age_is_at_least_the_true_one_and_exceeds_it_by_the_way_of_th
         assert to_theatre_s + to_hub_s < 1e-6
     else:
         assert stated_ms == pytest.approx(true_ms + to_theatre_s * 1000.0, abs=1e-3)
+
+
+def test_a_pause_while_a_header_is_made_does_not_make_the_message_younger(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # Between any two looks at the clock the thread waits for a second.
+    clock = itertools.count(100.0)
+    monkeypatch.setattr("server.hub.publisher.elapsed_s", lambda: next(clock))
+    monkeypatch.setattr("server.hub.publisher.time.monotonic", lambda: next(clock))
+    beats = Beats()
+    beats.take("hub", 100.0, now_s=100.0)
+    header = header_now("r", 1, captured_at_s=99.0, beats=beats)
+    sent_s = next(clock)
+    age_ms = arrival_of(header, "hub", now_s=sent_s).image_age_ms(now_s=sent_s)
+    assert age_ms is not None
+    assert age_ms >= (sent_s - 99.0) * 1000.0
 
 
 @pytest.mark.parametrize(
