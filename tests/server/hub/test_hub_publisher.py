@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ from server.hub.state import state_of
 from server.hub.subjects import Hospital, Leaf
 from server.hub.watcher import Received, Watcher
 from server.live import Instant
+from server.security.tls.self_signed import load_or_create
 from server.stream.messages import live_message
 from tests.nats_server import NatsServer, nats_in
 from tests.server.conftest import make_instant, make_snapshot
@@ -234,12 +236,15 @@ def test_the_second_theatre_of_one_name_publishes_nothing_until_the_first_is_gon
     ]
 
 
-def test_a_theatre_can_publish_under_its_own_name_only(
+def test_a_theatre_publishes_by_tls_and_under_its_own_name_only(
     tmp_path: Path, theatre: Callable[..., Theatre]
 ) -> None:
-    with nats_in(tmp_path / "nats", settings=USERS) as own:
-        create(HubAddress(url=own.url, hospital=HOSPITAL, user=("hub", "two")))
-        address = HubAddress(url=own.url, hospital=HOSPITAL, user=("OR-1", "one"))
+    made = load_or_create(tmp_path / "tls", host="127.0.0.1")
+    tls = f'tls {{ cert_file: "{made.certificate}", key_file: "{made.key}" }}'
+    with nats_in(tmp_path / "nats", settings=USERS + tls) as own:
+        url = own.url.replace("nats://", "tls://")
+        create(HubAddress(url=url, hospital=HOSPITAL, user=("hub", "two"), ca=made.certificate))
+        address = HubAddress(url=url, hospital=HOSPITAL, user=("OR-1", "one"), ca=made.certificate)
         known = theatre("OR-1", address=address)
         known.outbox.append(Leaf.ALARM, ["stored"])
         known.until(lambda: known.outbox.waiting == 0)
@@ -249,3 +254,5 @@ def test_a_theatre_can_publish_under_its_own_name_only(
         assert problem is not None
         assert problem.code == "HUB_UNREACHABLE"
         assert "permissions violation" in problem.message
+        distrustful = theatre("OR-1", folder="third", address=replace(address, ca=None))
+        distrustful.until(lambda: (problem := distrustful.problem()) and "CERTIFICATE" in problem.message)
