@@ -137,7 +137,7 @@ test-web: $(STAMPS)/page-packages
 
 .PHONY: test-python
 test-python: ready $(STAMPS)/dev ## Python and browser tests alone (TESTS="tests/server -k words" narrows them)
-	@COAXIAL_CHROMIUM="$$(sh .make/find-chromium)" || exit 1; export COAXIAL_CHROMIUM; sh .make/find-dicom-tools; \
+	@COAXIAL_CHROMIUM="$$(sh .make/find-chromium)" || exit 1; export COAXIAL_CHROMIUM; sh .make/find-dicom-tools; sh .make/find-nats-server; \
 	sh .make/run-tests $(PYTHON_IN_VENV) $(WORKERS) $(TESTS)
 
 .PHONY: test-lowest

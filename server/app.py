@@ -55,6 +55,7 @@ from server.api.tools import tools_router
 from server.capture.address import source_from_text
 from server.config import Config
 from server.dicom_receiver import DicomReceiver
+from server.hub.theatre import HubPublication
 from server.installation import product_version
 from server.jobs import Jobs
 from server.live import LiveHub, Problem
@@ -107,6 +108,7 @@ class AppParts:
         openigtlink: Listening socket of OpenIGTLink; None if it is off.
         recordings: Recordings of the open case; None without them.
         sinks: Plug-ins that receive each message; None without them.
+        publication: Publication to a hub; None if it is off.
         dicom: Receiver of CTs; None if it is off.
     """
 
@@ -124,6 +126,7 @@ class AppParts:
     openigtlink: socket.socket | None = None
     recordings: RecordingService | None = None
     sinks: Sinks | None = None
+    publication: HubPublication | None = None
     dicom: DicomReceiver | None = None
 
 
@@ -181,7 +184,10 @@ def create_app(parts: AppParts) -> FastAPI:
         health_router(
             hub,
             stale_after_ms=limits.video_stale_after_ms,
-            sinks=lambda: [] if parts.sinks is None else parts.sinks.status,
+            sinks=lambda: [
+                *([] if parts.sinks is None else parts.sinks.status),
+                *([] if parts.publication is None else [parts.publication.status]),
+            ],
         )
     )
     app.include_router(metrics_router(metrics))

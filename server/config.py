@@ -435,6 +435,37 @@ class PluginsConfig(Section):
     """Names of entry points of the group coaxial.sinks."""
 
 
+class HubTlsConfig(Section):
+    """TLS of the connection to the NATS server."""
+
+    ca: FilePath | None = None
+    """PEM with the authority of its certificate; default: those of this system."""
+    certificate: FilePath | None = None
+    """PEM of the own certificate, where the NATS server requires one."""
+    key: FilePath | None = None
+    """PEM, not encrypted."""
+
+
+class HubConfig(Section):
+    """Publication of this theatre through a NATS server of the hospital, and the hub's own server."""
+
+    url: Annotated[str, StringConstraints(pattern=r"^(nats|tls)://[^/@\s]+$")] | None = None
+    """tls://host:4222; default: off."""
+    hospital: Name = "hospital"
+    """First part of all subjects, so that several hospitals can share a NATS server."""
+    theatre: Name | None = None
+    """Name of this theatre, which no other may have at the same time; the hub's own server needs none."""
+    credentials: FilePath | None = None
+    """File with one line, `user:password`; default: none, as with a client certificate."""
+    tls: HubTlsConfig = HubTlsConfig()
+    unencrypted: Literal["anybody on this network reads the theatres"] | None = None
+    """Exactly this text allows nats:// to a host that is not loopback."""
+    max_rate_hz: Annotated[float, Field(ge=1.0, le=60.0)] = 30
+    """Maximum rate of live messages; above it only the newest are sent."""
+    picture_rate_hz: Annotated[float, Field(ge=0.0, le=10.0)] = 2
+    """Rate of small pictures; 0: none."""
+
+
 class Config(Section):
     """All settings. Paths are absolute, or relative to the working directory."""
 
@@ -459,3 +490,4 @@ class Config(Section):
     dicom: DicomConfig = DicomConfig()
     recording: RecordingConfig = RecordingConfig()
     plugins: PluginsConfig = PluginsConfig()
+    hub: HubConfig = HubConfig()

@@ -256,7 +256,17 @@ def _with_absolute_paths(config: Config, *, folder: Path, origins: Mapping[Key, 
     if receive.client_ca is not None:
         file = resolved(receive.client_ca, ("dicom", "receive", "client_ca"))
         receive = receive.model_copy(update={"client_ca": file})
+    hub = config.hub
+    hub_files = {
+        part: resolved(path, ("hub", "tls", part))
+        for part in ("ca", "certificate", "key")
+        if (path := getattr(hub.tls, part)) is not None
+    }
+    hub = hub.model_copy(update={"tls": hub.tls.model_copy(update=hub_files)})
+    if hub.credentials is not None:
+        hub = hub.model_copy(update={"credentials": resolved(hub.credentials, ("hub", "credentials"))})
     updated = {
+        "hub": hub,
         "dicom": config.dicom.model_copy(update={"archive": archive, "receive": receive}),
         "server": server,
         "camera": camera.model_copy(update=changes),

@@ -10,7 +10,7 @@ import os
 import shutil
 import threading
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -94,6 +94,8 @@ class StoredAlarmLog:
         self._problem: NavigationError | None = None
         self._stopped = False
         self._free_mb: float | None = None
+        self.on_stored: Callable[[Sequence[Line]], None] = lambda _lines: None
+        """Called from the log's thread with lines that were stored, before `flush` returns for them."""
         self._thread = threading.Thread(target=self._run, name="alarm log", daemon=True)
         self._thread.start()
 
@@ -182,6 +184,7 @@ class StoredAlarmLog:
     def _write(self, batch: list[Entry]) -> None:
         try:
             self._keep(batch)
+            self.on_stored([finite_line(entry.line) for entry in batch])
             problem = None
         except NavigationError as error:
             problem = error

@@ -14,6 +14,7 @@ from server.cli.board_commands import board_app
 from server.cli.calibration.commands import add_calibration
 from server.cli.camera_commands import cameras
 from server.cli.certify_commands import certify_app
+from server.cli.hub_commands import theatres
 from server.cli.latency_commands import latency_app
 from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
@@ -54,6 +55,7 @@ app.add_typer(register_app, name="register")
 app.command()(verify)
 app.command()(replay)
 app.add_typer(recording_app, name="recording")
+app.command()(theatres)
 
 
 class Rate(StrEnum):

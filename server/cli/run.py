@@ -93,6 +93,7 @@ def _serve(
         from server.alarms import AlarmService, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app, picture_problem_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
+        from server.hub.theatre import HubPublication  # noqa: PLC0415
         from server.procedure import Steps, TrackingLink  # noqa: PLC0415
         from server.recording.service import RecordingService  # noqa: PLC0415
         from server.sinks import Sinks  # noqa: PLC0415
@@ -126,6 +127,16 @@ def _serve(
         ending.callback(recordings.close)
         sinks = Sinks(config.plugins.sinks, tracked.hub, settings)
         ending.callback(sinks.stop)
+        publication = HubPublication.of(
+            config,
+            tracked.hub,
+            home=storage.store.home.folder,
+            alarms=alarm_log,
+            audit=access.people.audit,
+            log_settings=settings,
+        )
+        if publication is not None:
+            ending.callback(publication.stop)
         receiver = _dicom_receiver(config, doors.dicom, storage.store.home.folder, settings)
         if receiver is not None:
             ending.callback(receiver.stop)
@@ -146,11 +157,14 @@ def _serve(
                 rehearsed=_rehearsed(config, preparation, tracked),
                 openigtlink=doors.link,
                 sinks=sinks,
+                publication=publication,
                 dicom=receiver,
             )
         )
         recordings.follow()
         sinks.start()
+        if publication is not None:
+            publication.start()
         tracked.publish(
             check_alarms=alarms.observe,
             picture_problem=picture_problem_of(app),

@@ -4,9 +4,12 @@ In a thread of the server it could block or crash the interpreter. Its process h
 """
 
 import textwrap
+from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from typing import Any
 
+from server.live import Problem
 from server.logs import LogSettings, configure_logging
 from server.loop.parent import die_with_parent
 from server.plugins import SINKS, load_plugin
@@ -22,36 +25,45 @@ class Report:
 
     Attributes:
         error: Error that it raised for the last message; None if none.
+        problem: The same with code and remedy, where the sink is one of our own.
         is_ended: Whether loading failed, so that this is its only report.
     """
 
     error: str | None = None
+    problem: Problem | None = None
     is_ended: bool = False
 
 
-def run_sink(name: str, connection: Connection, settings: LogSettings) -> None:
-    """Load the plug-in and pass it each received message, until the connection is closed."""
+def plugin_sink(name: str) -> Any:  # noqa: ANN401  whatever the entry point returns
+    """Return the sink of a plug-in."""
+    return load_plugin(SINKS, name)()
+
+
+def run_sink(name: str, open_sink: Callable[[], Any], connection: Connection, settings: LogSettings) -> None:
+    """Open the sink and pass it each received message, until the connection is closed."""
     die_with_parent()
     configure_logging(settings, process=f"sink {name}")
     lower_process_priority()
     try:
-        sink = load_plugin(SINKS, name)()
+        sink = open_sink()
     except NavigationError as error:
         connection.send(Report(error=error.message, is_ended=True))
         return
     except Exception as error:  # noqa: BLE001  a plug-in may raise anything
         connection.send(Report(error=f"it cannot be opened: {_text(error)}", is_ended=True))
         return
-    error_text: str | None = None
+    report = Report()
     try:
         while True:
-            connection.send(Report(error=error_text))
-            text = connection.recv()
+            connection.send(report)
+            message = connection.recv()
             try:
-                sink.receive(text)
-                error_text = None
+                sink.receive(message)
+                report = Report()
+            except NavigationError as error:
+                report = Report(error=error.message, problem=Problem.from_error(error))
             except Exception as error:  # noqa: BLE001  as above
-                error_text = _text(error)
+                report = Report(error=_text(error))
     except (EOFError, OSError):
         # The server is stopping.
         sink.close()

@@ -1,4 +1,7 @@
-"""One sink in the web process: a thread that sends the newest message when the sink is ready."""
+"""One sink in the web process: a thread that sends the newest message when the sink is ready.
+
+A sink is a plug-in, or the publisher of the hub (`server.hub`).
+"""
 
 import contextlib
 import multiprocessing
@@ -6,9 +9,10 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import structlog
 
@@ -16,7 +20,7 @@ from server.live import Instant, LiveHub, Problem
 from server.logs import LogSettings
 from server.loop.forks import end_process, exit_text
 from server.priority import lower_thread_priority
-from server.sinks.process import Report, run_sink
+from server.sinks.process import Report, plugin_sink, run_sink
 
 POLL_S = 0.1
 SLOW_AFTER_S = 2.0
@@ -26,7 +30,7 @@ LOG_AGAIN_AFTER_S = 60.0
 REMEDY = (
     "Navigation continues. Correct or update the plug-in, or remove it from plugins.sinks, and start again."
 )
-Write: TypeAlias = Callable[[Instant], str]
+Write: TypeAlias = Callable[[Instant], object]
 log = structlog.get_logger(__name__)
 
 
@@ -48,13 +52,14 @@ class SinkStatus:
 
 
 class Sink:
-    """Sends the newest message to a plug-in; nothing waits for it.
+    """Sends the newest message to a sink; nothing waits for it.
 
     Args:
         name: Name of the plug-in.
         hub: Source of the instants.
-        write: Returns the message of an instant as text. Called from the sink's thread.
+        write: Returns the message of an instant. Called from the sink's thread.
         settings: Log settings of the sink's process.
+        open_sink: Called in the process, so it can be pickled; default: the plug-in of this name.
         slow_after_s: Time for one message after which the sink counts as slow.
         restart_after_s: Pause before an ended process is restarted.
     """
@@ -66,6 +71,7 @@ class Sink:
         *,
         write: Write,
         settings: LogSettings,
+        open_sink: Callable[[], Any] | None = None,
         slow_after_s: float = SLOW_AFTER_S,
         restart_after_s: float = RESTART_AFTER_S,
     ) -> None:
@@ -73,6 +79,7 @@ class Sink:
         self._hub = hub
         self._write = write
         self._settings = settings
+        self._open_sink = open_sink or partial(plugin_sink, name)
         self._slow_after_s = slow_after_s
         self._restart_after_s = restart_after_s
         self._stop = threading.Event()
@@ -127,7 +134,7 @@ class Sink:
             ours, theirs = context.Pipe()
             self._process = context.Process(
                 target=run_sink,
-                args=(self.name, theirs, self._settings),
+                args=(self.name, self._open_sink, theirs, self._settings),
                 name=f"sink {self.name}",
                 daemon=True,
             )
@@ -164,7 +171,10 @@ class Sink:
                     if report.is_ended:
                         self._report("SINK_NOT_LOADED", str(report.error))
                         return False
-                    self._report("SINK_FAILED", report.error)
+                    if report.problem is not None:
+                        self._set(report.problem)
+                    else:
+                        self._report("SINK_FAILED", report.error)
                 elif time.monotonic() - since_s > self._slow_after_s:
                     taken = f"it has taken more than {self._slow_after_s:g} s for one message"
                     self._report("SINK_SLOW", taken)
@@ -197,11 +207,14 @@ class Sink:
         if what is not None:
             message = f"the sink {self.name} does not work: {what}"
             problem = Problem(code=code, message=message, remedy=REMEDY, context={"sink": self.name})
+        self._set(problem)
+
+    def _set(self, problem: Problem | None) -> None:
         with self._lock:
             self._problem = problem
-        if problem is not None and code != self._logged_code:
-            self._logged_code, self._logged_at_s = code, time.monotonic()
-            log.warning(problem.message, code=code, sink=self.name, remedy=REMEDY)
+        if problem is not None and problem.code != self._logged_code:
+            self._logged_code, self._logged_at_s = problem.code, time.monotonic()
+            log.warning(problem.message, code=problem.code, sink=self.name, remedy=problem.remedy)
         elif problem is None and self._logged_code and self._logs_again():
             self._logged_code = ""
             log.info("sink works again", sink=self.name)

@@ -38,7 +38,8 @@ def reject_unsafe(config: Config) -> None:
     """Reject unsafe settings; call it before anything is started.
 
     Raises:
-        ConfigError: SIGN_IN_NEEDED, TLS_HALF, OPENIGTLINK_UNENCRYPTED, DICOM_UNENCRYPTED.
+        ConfigError: SIGN_IN_NEEDED, TLS_HALF, OPENIGTLINK_UNENCRYPTED, DICOM_UNENCRYPTED,
+            HUB_UNENCRYPTED.
     """
     host, tls = config.server.host, config.server.tls
     if config.security.sign_in == "off" and not is_loopback(_bracketed(host)):
@@ -78,6 +79,18 @@ def reject_unsafe(config: Config) -> None:
             "reads the patients' data'.",
             {"host": receive.host},
         )
+    hub = config.hub
+    if hub.url is not None and hub.unencrypted is None:
+        scheme, _, host = hub.url.partition("://")
+        if scheme == "nats" and not is_loopback(host):
+            raise ConfigError(
+                "HUB_UNENCRYPTED",
+                f"hub.url is {hub.url}: pictures and figures of the theatre would cross the network readable "
+                "to anybody",
+                "Write tls:// in hub.url, or set hub.unencrypted to exactly 'anybody on this network reads "
+                "the theatres'.",
+                {"url": hub.url},
+            )
     cosign = config.supervision.cosign
     if config.security.sign_in == "off" and "required" in (cosign.plan, cosign.registration):
         raise ConfigError(

@@ -7,6 +7,7 @@ from server.texts.errors.camera import CAMERA
 from server.texts.errors.cases import CASES
 from server.texts.errors.certificate import CERTIFICATE
 from server.texts.errors.dicom import DICOM
+from server.texts.errors.hub import HUB
 from server.texts.errors.labels import LABELS
 from server.texts.errors.procedure import PROCEDURE
 from server.texts.errors.process import PROCESS
@@ -38,6 +39,7 @@ _PARTS = (
     PROCESS,
     RECORDINGS,
     CASES,
+    HUB,
     LABELS,
     DICOM,
     ACCESS,

@@ -78,7 +78,7 @@ class Theatre:
         forking_context()
         self.hub = LiveHub()
         self.sequence = 0
-        self.sink = Sink(name, self.hub, write=self.text, settings=SETTINGS, **times_s)
+        self.sink = Sink(name, self.hub, write=self.text, settings=SETTINGS, **times_s)  # pyrefly: ignore[bad-argument-type]  # times only
         self.sink.start()
 
     @staticmethod

@@ -5,6 +5,7 @@ from server.texts.errors.remedies.camera import CAMERA
 from server.texts.errors.remedies.cases import CASES
 from server.texts.errors.remedies.certificate import CERTIFICATE
 from server.texts.errors.remedies.dicom import DICOM
+from server.texts.errors.remedies.hub import HUB
 from server.texts.errors.remedies.labels import LABELS
 from server.texts.errors.remedies.procedure import PROCEDURE
 from server.texts.errors.remedies.process import PROCESS
@@ -25,6 +26,7 @@ REMEDIES: tuple[Text, ...] = (
     *CASES,
     *LABELS,
     *DICOM,
+    *HUB,
     *ACCESS,
     *CERTIFICATE,
 )

@@ -1,0 +1,47 @@
+"""Names of subjects, streams and buckets. Hospital and theatre are single tokens (`Name` of the settings)."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Leaf(StrEnum):
+    """Last token of a theatre's subjects."""
+
+    STATE = "state"  # twice a second: headline and alarms without figures
+    LIVE = "live"  # the live message of each image, as on /ws/live
+    PICTURE = "picture"  # a small JPEG with lines and without figures
+    ALARM = "alarm"  # line of the alarm log; stored
+    AUDIT = "audit"  # end of the audit log's hash chain; stored
+
+
+STORED = (Leaf.ALARM, Leaf.AUDIT)
+
+
+@dataclass(frozen=True, slots=True)
+class Hospital:
+    """Names on the NATS server for one hospital."""
+
+    name: str
+
+    def subject(self, theatre: str, leaf: Leaf) -> str:
+        """Subject of a theatre; `*` for all theatres."""
+        return f"coaxial.{self.name}.theatre.{theatre}.{leaf}"
+
+    def beats(self, hub: str) -> str:
+        """Subject on which a hub sends its clock; `*` for all hubs."""
+        return f"coaxial.{self.name}.hub.{hub}.beat"
+
+    @property
+    def stream(self) -> str:
+        """Stream of alarms and audit heads."""
+        return f"COAXIAL_{self.name}"
+
+    @property
+    def claims(self) -> str:
+        """Key-value bucket of the theatres' names."""
+        return f"coaxial_{self.name}"
+
+
+def theatre_of(subject: str) -> str:
+    """Theatre of one of its subjects."""
+    return subject.split(".")[3]

@@ -1,0 +1,52 @@
+"""Messages of errors of the hub, by code."""
+
+from collections.abc import Mapping
+
+from server.texts.language import Text
+
+HUB: Mapping[str, tuple[Text, ...]] = {
+    "HUB_CREDENTIALS_UNUSABLE": (
+        {
+            "en": "{file} has not exactly one line of the form user:password",
+            "de": "{file} hat nicht genau eine Zeile der Form user:password",
+        },
+    ),
+    "HUB_FAILED": (
+        {
+            "en": "publishing to the hub failed: {library_error}",
+            "de": "das Veröffentlichen an den Hub ist fehlgeschlagen: {library_error}",
+        },
+    ),
+    "HUB_NAME_TAKEN": (
+        {
+            "en": "a theatre {theatre} publishes already, from {host} since {since}: two theatres with one "
+            "name would be mixed up",
+            "de": "ein OP {theatre} veröffentlicht schon, von {host} seit {since}: zwei OPs mit einem Namen "
+            "würden verwechselt",
+        },
+    ),
+    "HUB_NOT_SET": (
+        {
+            "en": "the settings name no NATS server",
+            "de": "die Einstellungen nennen keinen NATS-Server",
+        },
+    ),
+    "HUB_OUTBOX_UNUSABLE": (
+        {
+            "en": "the outbox of the hub in {folder} cannot be used: {library_error}",
+            "de": "der Postausgang des Hubs in {folder} lässt sich nicht verwenden: {library_error}",
+        },
+    ),
+    "HUB_THEATRE_MISSING": (
+        {
+            "en": "hub.url is {url}, but hub.theatre does not name this theatre",
+            "de": "hub.url ist {url}, aber hub.theatre nennt diesen OP nicht",
+        },
+    ),
+    "HUB_UNREACHABLE": (
+        {
+            "en": "the hub's NATS server {url} cannot be used: {library_error}",
+            "de": "der NATS-Server {url} des Hubs lässt sich nicht verwenden: {library_error}",
+        },
+    ),
+}
