@@ -236,6 +236,10 @@ class CaseStore:
         newest = self._index.newest_of_kind(case_id, kind)
         return self._index.documents(case_id, [one for one in newest if one.is_usable])
 
+    def ids(self, case_id: str) -> tuple[str, ...]:
+        """Return the ids of all versions of all documents, in order of creation."""
+        return tuple(one.id for one in self._index.headings(case_id))
+
     def outline(self, case_id: str) -> tuple[Entry, ...]:
         """Return the headings of all versions of all documents with their validity, in order of creation.
 
