@@ -23,6 +23,11 @@ def elapsed_s() -> float:
     return time.monotonic() if boot_time is None else time.clock_gettime(boot_time)
 
 
+def slept_s() -> float:
+    """Return how long the computer slept since its start, where the system can tell it."""
+    return elapsed_s() - time.monotonic()
+
+
 class SteadyClock:
     """A clock in UTC that nobody can set: the wall clock when it was made, and the time since then."""
 

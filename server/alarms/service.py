@@ -12,7 +12,7 @@ from server.alarms.entries import entry_of, guiding_entry
 from server.alarms.evaluation import AlarmCall, AlarmEvaluation, AlarmState, AlarmStep, Circumstances
 from server.alarms.log import AlarmLog, NoLog
 from server.alarms.screens import Screens
-from server.clock import utc_now, utc_text
+from server.clock import slept_s, utc_now, utc_text
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from tracker.navigation import NavigationSnapshot
@@ -69,6 +69,7 @@ class AlarmService:
         log: The alarm log.
         clock: Monotonic clock of the capture times.
         wall_clock: Clock for the log.
+        slept_s: Returns how long the computer slept so far, during which `clock` stands still.
     """
 
     def __init__(
@@ -78,6 +79,7 @@ class AlarmService:
         log: AlarmLog | None = None,
         clock: Callable[[], float] = time.monotonic,
         wall_clock: Callable[[], datetime] = utc_now,
+        slept_s: Callable[[], float] = slept_s,
     ) -> None:
         self._evaluation = AlarmEvaluation(
             alarm_limits(config), put_away_after_s=config.alarms.put_away_after_s
@@ -85,12 +87,14 @@ class AlarmService:
         self._log: AlarmLog = log or NoLog()
         self._clock = clock
         self._wall_clock = wall_clock
+        self._slept_s = slept_s
         self._lock = threading.Lock()
         self._screens = Screens(lost_after_s=config.alarms.screen_lost_after_s)
         self._guiding: dict[str, str] = {}
         self._camera_works = True
         self._tracker_works = True
         self._facts = ProcedureFacts()
+        self._slept_before_facts_s = 0.0
         self._hold_requested_by = ""
         self._unix_offset_s = inf
         self._recorder: StepRecorder | None = None
@@ -151,7 +155,7 @@ class AlarmService:
             if self._evaluation.is_navigating and not is_current:
                 # A document that becomes out of date removes the numbers but does not end navigation.
                 facts = replace(facts, navigating=True)
-            self._facts = facts
+            self._facts, self._slept_before_facts_s = facts, self._slept_s()
         self.on_change()
 
     @property
@@ -246,13 +250,15 @@ class AlarmService:
 
     def _circumstances(self, at_s: float) -> Circumstances:
         facts = self._facts
+        # A check is not younger because the computer slept after it. Whole seconds: without sleep exactly 0.
+        slept_s = round(self._slept_s() - self._slept_before_facts_s)
         return Circumstances(
             camera_works=self._camera_works,
             tracker_works=self._tracker_works,
             navigating=facts.navigating,
             registration_current=facts.registration_current,
             calibration_current=facts.calibration_current,
-            checked_at_s=facts.checked_at_s,
+            checked_at_s=None if facts.checked_at_s is None else facts.checked_at_s - slept_s,
             armed_screens=self._screens.armed(at_s),
             lost_screens=self._screens.lost(at_s),
             free_disk_mb=self._log.free_mb,

@@ -165,6 +165,13 @@ class VerificationMessage(Message):
     damages: list[DamageMessage]
 
 
+class ImportedCaseMessage(CaseMessage):
+    """A case imported from an archive."""
+
+    damages: list[DamageMessage]
+    """Documents and files that were damaged before the export, and are not in the archive."""
+
+
 def case_message(case: Case) -> CaseMessage:
     """Return the message of a case."""
     return CaseMessage.model_validate(case, from_attributes=True)
@@ -216,19 +223,24 @@ def files_message(files: tuple[StoredFile, ...]) -> FilesMessage:
     return FilesMessage(files=[FileMessage.model_validate(file, from_attributes=True) for file in files])
 
 
+def imported_case_message(case: Case, damages: tuple[Damage, ...]) -> ImportedCaseMessage:
+    """Return the message of an imported case."""
+    return ImportedCaseMessage(
+        **case_message(case).model_dump(), damages=[_damage_message(damage) for damage in damages]
+    )
+
+
 def verification_message(damages: tuple[Damage, ...]) -> VerificationMessage:
     """Return the message of an integrity check."""
-    return VerificationMessage(
-        sound=not damages,
-        damages=[
-            DamageMessage(
-                file_id=damage.file_id,
-                problem=damage.problem,
-                message=damage.message,
-                documents=list(damage.documents),
-            )
-            for damage in damages
-        ],
+    return VerificationMessage(sound=not damages, damages=[_damage_message(damage) for damage in damages])
+
+
+def _damage_message(damage: Damage) -> DamageMessage:
+    return DamageMessage(
+        file_id=damage.file_id,
+        problem=damage.problem,
+        message=damage.message,
+        documents=list(damage.documents),
     )
 
 

@@ -1,5 +1,7 @@
 """Cases: list, create, open, export, import and delete; their documents and files."""
 
+from pathlib import Path
+
 from anyio import to_thread
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import FileResponse
@@ -13,6 +15,7 @@ from server.api.case_messages import (
     DocumentMessage,
     DocumentsMessage,
     FilesMessage,
+    ImportedCaseMessage,
     RestoreMessage,
     VerificationMessage,
     WithdrawMessage,
@@ -20,6 +23,7 @@ from server.api.case_messages import (
     document_message,
     documents_message,
     files_message,
+    imported_case_message,
     verification_message,
 )
 from server.api.errors import rejections
@@ -106,13 +110,21 @@ def _add_archives(router: APIRouter, store: CaseStore) -> None:
         response_class=FileResponse,
         responses={200: {"content": {ZIP: {}}}, **rejections(404, 503, 507)},
     )
-    def copy_out(case_id: str, *, with_identity: bool = False) -> FileResponse:
-        """Return the case as a zip archive. Case name and patient identity are only included on request."""
-        archive = store.export_case(case_id, with_identity=with_identity)
+    def copy_out(case_id: str, *, with_identity: bool = False, without_damaged: bool = False) -> FileResponse:
+        """Return the case as a zip archive. Case name and patient identity are only included on request.
+
+        If the disk has damaged a document or a file, the export is rejected (503), unless `without_damaged`
+        is true. Then the manifest of the archive lists under `missing` what it does not contain, its file
+        name ends in `-incomplete`, and the header `Coaxial-Missing` is the number of missing documents and
+        files.
+        """
+        archive = store.export_case(case_id, with_identity=with_identity, without_damaged=without_damaged)
+        incomplete = "-incomplete" if archive.missing else ""
         return FileResponse(
             archive.path,
             media_type=ZIP,
-            filename=f"coaxial-case-{case_id[:6]}.zip",
+            filename=f"coaxial-case-{case_id[:6]}{incomplete}.zip",
+            headers={"Coaxial-Missing": f"{archive.missing}"},
             background=BackgroundTask(archive.path.unlink, missing_ok=True),
         )
 
@@ -122,15 +134,21 @@ def _add_archives(router: APIRouter, store: CaseStore) -> None:
         responses=rejections(413, 422, 503, 507),
         openapi_extra={"requestBody": {"required": True, "content": {ZIP: {}}}},
     )
-    async def copy_in(request: Request) -> CaseMessage:
+    async def copy_in(request: Request) -> ImportedCaseMessage:
         """Import a case from an archive in the request body, completely or not at all.
 
+        What was damaged before the export, and is missing in the archive, is in `damages`.
         Its documents record who imported them and when. Their authors are only claimed by the archive.
         Signatures in the archive are not valid on this server.
         """
         by = actor_name(request.scope, None)
         async with received(request, store.home, max_bytes=MAX_ARCHIVE_BYTES) as path:
-            return case_message(await to_thread.run_sync(lambda: store.import_archive(path, by=by)))
+            return await to_thread.run_sync(lambda: _imported(store, path, by=by))
+
+
+def _imported(store: CaseStore, archive: Path, *, by: str) -> ImportedCaseMessage:
+    case = store.import_archive(archive, by=by)
+    return imported_case_message(case, store.verify(case.id))
 
 
 def _add_documents(router: APIRouter, store: CaseStore) -> None:

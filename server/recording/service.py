@@ -41,7 +41,9 @@ from server.recording_file.topics import SUFFIX
 from server.store import Case, CaseStore, Change, DocumentKind, NotFound, StoreError
 from server.store.home import PRIVATE, RECORDINGS
 
-NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{4}\.mcap")
+# Time of the start, a number that increases from recording to recording, because clocks can be set back, and
+# random digits. Recordings of earlier versions have no number.
+NAME = re.compile(r"\d{8}T\d{6}Z(?:-(?P<number>\d{6,}))?-[0-9a-f]{4}\.mcap")
 TIME_FORMAT = "%Y%m%dT%H%M%SZ"
 PROTECTED = ".protected"
 # Rotation leaves a fifth of the budget for the new recording.
@@ -266,7 +268,7 @@ class RecordingService:
         with self._lock:
             written = {*self._closing, self.state.name}
         found = []
-        for path in sorted(folder.glob(f"*{SUFFIX}")) if folder.is_dir() else []:
+        for path in sorted(folder.glob(f"*{SUFFIX}"), key=_age_order) if folder.is_dir() else []:
             began_at = _began_at(path.name)
             if began_at is None or not path.is_file():
                 continue
@@ -374,7 +376,6 @@ class RecordingService:
         Nothing is deleted where that is not possible, because protected ones take too much of it.
         """
         over_bytes = self._total_bytes() - MAX_STORED_RATIO * self._config.recording.max_total_gb * 1e9
-        # Names begin with the time.
         unprotected = sorted(
             (
                 path
@@ -383,7 +384,7 @@ class RecordingService:
                 and path.name not in self._closing
                 and not _protection(path).exists()
             ),
-            key=lambda path: path.name,
+            key=_age_order,
         )
         sizes = [_sum_of_sizes((path, *exports_folder(path).glob("*"))) for path in unprotected]
         if sum(sizes) < over_bytes:
@@ -468,8 +469,8 @@ class RecordingService:
                 "Delete recordings that are not needed, or raise recording.max_total_gb.",
                 {"max_total_gb": settings.max_total_gb},
             )
-        now = utc_now()
-        name = f"{now:{TIME_FORMAT}}-{secrets.token_hex(2)}{SUFFIX}"
+        now, number = utc_now(), self._next_number()
+        name = f"{now:{TIME_FORMAT}}-{number:06}-{secrets.token_hex(2)}{SUFFIX}"
         with ExitStack() as stack:
             # Prevents the deletion of the case during the recording.
             stack.enter_context(self._store.in_use(case.id))
@@ -624,6 +625,10 @@ class RecordingService:
             known = self._durations[path] = version, read_duration_s(path)
         return known[1]
 
+    def _next_number(self) -> int:
+        paths = self._store.home.cases.glob(f"*/{RECORDINGS}/*{SUFFIX}")
+        return 1 + max((_age_order(path)[0] for path in paths), default=0)
+
     def _total_bytes(self) -> int:
         patterns = (f"*{SUFFIX}", f"*{EXPORTS}/*")
         cases = self._store.home.cases
@@ -640,6 +645,12 @@ def _sum_of_sizes(paths: Iterable[Path]) -> int:
         with suppress(FileNotFoundError):
             total += path.stat().st_size
     return total
+
+
+def _age_order(path: Path) -> tuple[int, str]:
+    """Return the key by which recordings are sorted, oldest first; those without a number by their times."""
+    found = NAME.fullmatch(path.name)
+    return int(found["number"] or 0) if found else 0, path.name
 
 
 def _began_at(name: str) -> str | None:

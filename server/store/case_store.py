@@ -236,6 +236,10 @@ class CaseStore:
         newest = self._index.newest_of_kind(case_id, kind)
         return self._index.documents(case_id, [one for one in newest if one.is_usable])
 
+    def ids(self, case_id: str) -> tuple[str, ...]:
+        """Return the ids of all versions of all documents, in order of creation."""
+        return tuple(one.id for one in self._index.headings(case_id))
+
     def outline(self, case_id: str) -> tuple[Entry, ...]:
         """Return the headings of all versions of all documents with their validity, in order of creation.
 
@@ -398,13 +402,17 @@ class CaseStore:
 
     # ------------------------------------------------------------ archives
 
-    def export_case(self, case_id: str, *, with_identity: bool = False) -> Archive:
+    def export_case(
+        self, case_id: str, *, with_identity: bool = False, without_damaged: bool = False
+    ) -> Archive:
         """Export a case as an archive; its name and the patient's identity are left out by default.
+
+        With `without_damaged` it has what is intact, and its manifest states what is missing.
 
         Raises:
             StoreError: FILE_DAMAGED, DOCUMENT_DAMAGED.
         """
-        return pack(self._database, case_id, with_identity=with_identity)
+        return pack(self._database, case_id, with_identity=with_identity, without_damaged=without_damaged)
 
     def import_archive(self, archive: Path, *, by: str) -> Case:
         """Import an archive as a new case, completely or not at all; `by` is the person who is responsible.
@@ -413,8 +421,9 @@ class CaseStore:
             InvalidInput: NAME_INVALID, ARCHIVE_INVALID, ARCHIVE_NEWER.
         """
         by = validate_name(by, of="name of the person who imports it")
-        case = unpack(self._database, archive, by=by)
-        self._on_change(Change(case_id=case.id, kind="case", before=None, after="copied in", by=by))
+        case, missing = unpack(self._database, archive, by=by)
+        without = f", without {missing} damaged documents and files" if missing else ""
+        self._on_change(Change(case_id=case.id, kind="case", before=None, after=f"copied in{without}", by=by))
         return case
 
     # ------------------------------------------------------------ end

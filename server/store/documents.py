@@ -143,10 +143,15 @@ def read_documents(session: Session, case_id: str, ids: Sequence[str]) -> tuple[
     return tuple(found[one] for one in ids)
 
 
-def every_document(session: Session, case_id: str) -> Iterator[Document]:
-    """Yield all documents of a case, each after those that it depends on; StoreError DOCUMENT_DAMAGED."""
+def every_document(session: Session, case_id: str, *, without_damaged: bool = False) -> Iterator[Document]:
+    """Yield all documents of a case, each after those that it depends on.
+
+    Raises:
+        StoreError: DOCUMENT_DAMAGED, unless they are left out.
+    """
     for stored in stored_documents(session, case_id):
-        yield _document_of(case_id, stored)
+        if stored.heading is not None or not without_damaged:
+            yield _document_of(case_id, stored)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -179,10 +179,14 @@ def all_files(database: CaseDatabase, session: Session, case_id: str) -> tuple[S
     Raises:
         StoreError: FILE_DAMAGED, a row does not match its checksum.
     """
-    intact, damaged = _file_rows(session, case_id)
-    for row in damaged:
+    for row in _file_rows(session, case_id)[1]:
         raise file_damaged(file_of(database, row), "its entry in the database was changed")
-    files = [file_of(database, row) for row in intact if row.state == COMPLETE]
+    return known_files(database, session, case_id)
+
+
+def known_files(database: CaseDatabase, session: Session, case_id: str) -> tuple[StoredFile, ...]:
+    """Return the complete files of a case whose entries are intact, oldest first."""
+    files = [file_of(database, row) for row in _file_rows(session, case_id)[0] if row.state == COMPLETE]
     return tuple(sorted(files, key=lambda file: (file.made_at, file.id)))
 
 
@@ -201,7 +205,8 @@ def find_damage(database: CaseDatabase, case_id: str) -> tuple[Damage, ...]:
             intact, damaged = _file_rows(session, case_id)
             files = [file_of(database, row) for row in intact if row.state == COMPLETE]
             entries = [f"{row.id}" for row in damaged]
-            headings = lineage_of(session, case_id).headings.values()
+            lineage = lineage_of(session, case_id)
+            headings = lineage.headings.values()
         known = {file.id for file in files}
         missing = {file for heading in headings for file in heading.files} - known
         problems = [
@@ -228,6 +233,15 @@ def find_damage(database: CaseDatabase, case_id: str) -> tuple[Damage, ...]:
                 )
                 for heading in headings
                 if heading.is_damaged
+            ),
+            *(
+                Damage(
+                    file_id=unknown,
+                    problem="document",
+                    message="a document that others depend on is missing in the database",
+                    documents=tuple(one.title for one in headings if unknown in one.depends_on),
+                )
+                for unknown in lineage.unknown_bases
             ),
         )
 

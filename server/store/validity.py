@@ -98,6 +98,12 @@ class Lineage:
                     is_damaged=True,
                 )
 
+    @property
+    def unknown_bases(self) -> tuple[str, ...]:
+        """Ids of documents that others depend on, and of which nothing else is known."""
+        bases = {basis for one in self._intact.values() for basis in one.depends_on}
+        return tuple(sorted(bases - self.headings.keys()))
+
     def newest(self, kind: DocumentKind) -> Mapping[str, Heading]:
         """Return the newest version of each name, also if it is withdrawn or damaged."""
         return self._newest[kind]

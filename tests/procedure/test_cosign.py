@@ -1,7 +1,9 @@
 """Co-signatures: of exactly one version, by another person, and required before navigation if configured."""
 
+import itertools
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +13,14 @@ from fastapi import FastAPI
 from server.app import AppParts, create_app
 from server.errors import SetupOrderError
 from server.procedure.state import Finding, MissingCosignature, StepName, StepState, derive_state
+from server.procedure.state.cosignatures import (
+    CosignTarget,
+    SignatureRecord,
+    content_sha256,
+    signatures_of,
+)
 from server.security.audit import collect_changes
-from server.store import DocumentKind
+from server.store import CaseStore, DocumentKind, Home
 from server.texts import reason
 from tests.procedure.conftest import Server, serving
 from tests.procedure.patient import Patient, plan_content, ready, with_plan, withheld
@@ -283,3 +291,30 @@ def test_only_navigation_waits_for_a_signature() -> None:
     }
     waiting = derive_state("case", missing, missing_cosignature={StepName.PLAN: lack})
     assert "no tool" in waiting.status(StepName.NAVIGATE).finding.reason.message["en"]
+
+
+def test_signatures_are_in_the_order_in_which_they_were_given_whatever_the_clock_was_set_to(
+    tmp_path: Path,
+) -> None:
+    hours = itertools.count(20, -1)
+    with (
+        Home(tmp_path / "home") as home,
+        CaseStore(home, clock=lambda: datetime(2026, 11, 21, next(hours), tzinfo=UTC)) as store,
+    ):
+        case = store.create("L4")
+        plan = store.put(case.id, DocumentKind.PLAN, "main", {}, made_by="M. Ito")
+        for signer in ("s2", "s1", "s3"):
+            signed = SignatureRecord(
+                what=CosignTarget.PLAN,
+                document_id=plan.id,
+                title=plan.title,
+                content_sha256=content_sha256(plan),
+                signer_id=signer,
+                signer_role="supervisor",
+                second_person=True,
+            )
+            content = signed.model_dump(mode="json")
+            kind, name = DocumentKind.SIGNATURE, f"plan main by {signer}"
+            store.put(case.id, kind, name, content, made_by=signer, depends_on=[plan.id])
+        found = signatures_of(store, plan)
+        assert [one.made_by for one, _ in found] == ["s2", "s1", "s3"]

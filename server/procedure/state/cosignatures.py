@@ -73,7 +73,9 @@ def signatures_of(store: CaseStore, document: Document) -> tuple[tuple[Document,
         fits = record.document_id == document.id and record.content_sha256 == sha256
         if fits and store.is_current(one):
             found.append((one, record))
-    return tuple(sorted(found, key=lambda pair: pair[0].made_at))
+    # Not by time stamps, because clocks can be set back.
+    place = {one: n for n, one in enumerate(store.ids(document.case_id))}
+    return tuple(sorted(found, key=lambda pair: place[pair[0].id]))
 
 
 def is_cosigned(store: CaseStore, document: Document) -> bool:

@@ -4,27 +4,36 @@ The archive is completed before its first byte is sent, so that a slow client do
 length is known, and a damaged file is reported instead of sent in a partial archive. This needs the disk
 space of a second copy, and seconds for a CT. The patient's identity is a separate kind of document, so that
 it can be excluded.
+
+What the disk has damaged is left out on request only; the manifest then states what is missing.
 """
 
 import hashlib
 import json
 import os
+import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from server.store.archive.schema import (
     CASE,
+    COMPLETE_VERSION,
     DOCUMENTS,
+    FILE_ID,
     FILES,
     FORMAT,
+    ID,
     MANIFEST,
     VERSION,
     CaseSchema,
     DocumentSchema,
     FileSchema,
     ManifestSchema,
+    MissingDocumentSchema,
+    MissingFileSchema,
+    MissingSchema,
     PartSchema,
     WithdrawalSchema,
 )
@@ -32,9 +41,11 @@ from server.store.case_database import CaseDatabase
 from server.store.cases import case_of, case_row
 from server.store.documents import document_damaged, every_document
 from server.store.errors import translate_errors
-from server.store.files import CHUNK_BYTES, all_files, file_damaged
-from server.store.records import Case, Document, DocumentKind, StoredFile
-from server.store.validity import lineage_of
+from server.store.files import CHUNK_BYTES, all_files, file_damaged, find_damage, known_files
+from server.store.records import Case, Damage, Document, DocumentKind, Heading, StoredFile
+from server.store.validation import validate_name
+from server.store.validity import Lineage, lineage_of
+from tracker.errors import InvalidInput
 
 FAST = 1  # zlib's level: half of the size for a tenth of the time
 ZIP64_FROM_BYTES = 2**31
@@ -48,11 +59,13 @@ class Archive:
         case_id: the case.
         path: in the home's temporary folder; the caller deletes it.
         size_bytes: size of the file.
+        missing: number of documents and files that it does not contain because they are damaged.
     """
 
     case_id: str
     path: Path
     size_bytes: int
+    missing: int
 
 
 class _Writer:
@@ -76,38 +89,64 @@ class _Writer:
         return part
 
 
-def pack(database: CaseDatabase, case_id: str, *, with_identity: bool) -> Archive:
-    """Create the archive of a case; without `with_identity` it has neither its name nor patient identity.
+def pack(database: CaseDatabase, case_id: str, *, with_identity: bool, without_damaged: bool) -> Archive:
+    """Create the archive of a case.
+
+    Args:
+        database: the database.
+        case_id: the case.
+        with_identity: whether it contains the name of the case and the patient's identity.
+        without_damaged: whether damaged documents and files are left out, and stated as missing.
 
     Raises:
         NotFound: CASE_UNKNOWN.
-        StoreError: FILE_DAMAGED, DOCUMENT_DAMAGED, one differs from the stored one.
+        StoreError: CASE_DAMAGED; FILE_DAMAGED, DOCUMENT_DAMAGED, one differs from the stored one and is not
+            left out.
     """
     path = database.home.new_temporary(".zip")
     with database.in_use(case_id), translate_errors(database.home.folder):
         try:
             with zipfile.ZipFile(path, "x", zipfile.ZIP_DEFLATED, compresslevel=FAST) as archive:
-                _write_all(database, case_id, _Writer(archive), archive, with_identity=with_identity)
-            return Archive(case_id=case_id, path=path, size_bytes=path.stat().st_size)
+                # Before anything is written, because a part of a zip file cannot be taken back.
+                damages = find_damage(database, case_id) if without_damaged else None
+                missing = _write_all(
+                    database, case_id, _Writer(archive), archive, with_identity=with_identity, damages=damages
+                )
+            size_bytes = path.stat().st_size
+            return Archive(case_id=case_id, path=path, size_bytes=size_bytes, missing=missing.count)
         except BaseException:
             path.unlink(missing_ok=True)
             raise
 
 
 def _write_all(
-    database: CaseDatabase, case_id: str, writer: _Writer, archive: zipfile.ZipFile, *, with_identity: bool
-) -> None:
+    database: CaseDatabase,
+    case_id: str,
+    writer: _Writer,
+    archive: zipfile.ZipFile,
+    *,
+    with_identity: bool,
+    damages: Sequence[Damage] | None,
+) -> MissingSchema:
+    """Write all parts but those of `damages`, and return what is missing; None allows no damage."""
     with database.read_session() as session:
         case = case_of(case_row(session, case_id))
-        files = all_files(database, session, case_id)
-        for heading in lineage_of(session, case_id).headings.values():
-            if heading.is_damaged:
-                raise document_damaged(case_id, heading.id)
+        lineage = lineage_of(session, case_id)
+        headings = lineage.headings.values()
+        if damages is None:
+            files = all_files(database, session, case_id)
+            for damaged in (*(one.id for one in headings if one.is_damaged), *lineage.unknown_bases):
+                raise document_damaged(case_id, damaged)
+        else:
+            files = known_files(database, session, case_id)
+        missing = _missing(lineage, files, damages or (), with_identity=with_identity)
+        lost = {one.id for one in missing.files}
+        files = tuple(file for file in files if file.id not in lost)
         database.home.reject_without_space(sum(file.size_bytes for file in files))
         writer.write(CASE, iter([_case_text(case, files, with_identity=with_identity)]))
         lines = (
             _document_line(document)
-            for document in every_document(session, case_id)
+            for document in every_document(session, case_id, without_damaged=damages is not None)
             if with_identity or document.kind is not DocumentKind.PATIENT
         )
         writer.write(DOCUMENTS, lines)
@@ -117,8 +156,69 @@ def _write_all(
         part = writer.write(f"{FILES}{file.id}", _pieces(file.path), expected_bytes=file.size_bytes)
         if part.sha256 != file.sha256:
             raise file_damaged(file, "its SHA-256 differs")
-    manifest = ManifestSchema(format=FORMAT, version=VERSION, made_at=database.now, parts=writer.parts)
-    archive.writestr(MANIFEST, manifest.model_dump_json(indent=1))
+    manifest = ManifestSchema(
+        format=FORMAT,
+        version=VERSION if missing.count else COMPLETE_VERSION,
+        made_at=database.now,
+        parts=writer.parts,
+        missing=missing,
+    )
+    excluded = None if missing.count else {"missing"}
+    archive.writestr(MANIFEST, manifest.model_dump_json(indent=1, exclude=excluded))
+    return missing
+
+
+def _missing(
+    lineage: Lineage, files: Iterable[StoredFile], damages: Iterable[Damage], *, with_identity: bool
+) -> MissingSchema:
+    damaged = (one for one in lineage.headings.values() if one.is_damaged)
+    documents = [
+        _missing_document(one) for one in damaged if with_identity or one.kind is not DocumentKind.PATIENT
+    ]
+    documents += [
+        MissingDocumentSchema(id=unknown, kind=None, name="", version=0) for unknown in lineage.unknown_bases
+    ]
+    return MissingSchema(documents=documents, files=_missing_files(files, damages))
+
+
+def _missing_document(heading: Heading) -> MissingDocumentSchema:
+    # What is read as id and name of a damaged version can be neither; it is stated in another form then.
+    title = f"{heading.kind} {heading.name} {heading.version}"
+    return MissingDocumentSchema(
+        id=heading.id if re.fullmatch(ID, heading.id) else _id_from(title),
+        kind=heading.kind,
+        name=heading.name if _is_valid_name(heading.name) else ascii(heading.name),
+        version=heading.version,
+    )
+
+
+def _is_valid_name(name: str) -> bool:
+    try:
+        return validate_name(name, of="name of a document") == name
+    except InvalidInput:
+        return False
+
+
+def _missing_files(known: Iterable[StoredFile], damages: Iterable[Damage]) -> list[MissingFileSchema]:
+    stored = {file.id: file for file in known}
+    missing = []
+    for damage in damages:
+        if damage.problem == "document":
+            continue
+        file, is_id = stored.get(damage.file_id), re.fullmatch(FILE_ID, damage.file_id)
+        missing.append(
+            MissingFileSchema(
+                id=damage.file_id if is_id else f"{_id_from(damage.file_id)}.lost",
+                size_bytes=0 if file is None else file.size_bytes,
+                sha256="" if file is None else file.sha256,
+                problem=damage.message,
+            )
+        )
+    return missing
+
+
+def _id_from(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _case_text(case: Case, files: tuple[StoredFile, ...], *, with_identity: bool) -> bytes:

@@ -1,6 +1,6 @@
 """Import of a case from an archive."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from sqlalchemy.orm import Session
@@ -11,8 +11,10 @@ from server.store.archive.schema import (
     CASE,
     DOCUMENTS,
     FILES,
+    MANIFEST,
     CaseSchema,
     DocumentSchema,
+    MissingDocumentSchema,
     WithdrawalSchema,
     archive_error,
 )
@@ -30,16 +32,22 @@ from server.store.tables import (
     CaseRow,
     DocumentRow,
     FileRow,
+    NewestVersionRow,
 )
 from server.store.validation import content_to_json, validate_name
 from tracker.errors import InvalidInput
 
+# Kind of a missing document of which only the id is known.
+UNKNOWN = "unknown"
 # Author of the withdrawal of imported signatures.
 WITHDRAWN_BY = "Coaxial"
 
 
-def unpack(database: CaseDatabase, archive: Path, *, by: str) -> Case:
-    """Import a case atomically.
+def unpack(database: CaseDatabase, archive: Path, *, by: str) -> tuple[Case, int]:
+    """Import a case atomically; return it, and the number of its documents and files that are missing.
+
+    What the archive states as missing, because it was damaged, counts as damaged here, too: `find_damage`
+    names it, and what depends on it is out of date.
 
     Each of its documents is marked as imported, with person and time, because the names in an archive are not
     authenticated.
@@ -60,7 +68,8 @@ def unpack(database: CaseDatabase, archive: Path, *, by: str) -> Case:
             with database.write_session() as session:
                 imported = ImportRecord(by=by, at=database.now)
                 stored = [_as_imported(document, imported.at) for document in documents]
-                return _insert_case(session, arriving.id, case, stored, parts, imported)
+                made = _insert_case(session, arriving.id, case, stored, parts, imported)
+                return made, parts.manifest.missing.count
         except BaseException:
             remove_case(database, arriving.id)
             raise
@@ -73,6 +82,10 @@ def _validated(parts: Parts) -> tuple[CaseSchema, list[DocumentSchema]]:
     expected = {f"{FILES}{file}" for file in files} | {CASE, DOCUMENTS}
     if len(set(files)) != len(files) or {part.path for part in parts.manifest.parts} != expected:
         raise archive_error(f"its files are not those listed in {CASE}")
+    missing = parts.manifest.missing
+    files += [file.id for file in missing.files]
+    if len(set(files)) != len(files):
+        raise archive_error(f"a file that {MANIFEST} states as missing is there, or is stated twice")
     lines = parts.text(DOCUMENTS).split(b"\n")
     if lines.pop() != b"":
         raise archive_error(f"{DOCUMENTS} ends inside a line")
@@ -82,7 +95,7 @@ def _validated(parts: Parts) -> tuple[CaseSchema, list[DocumentSchema]]:
     ]
     try:
         validate_name(case.name, of="name of the case")
-        _reject_misfits(documents, set(files))
+        _reject_misfits(documents, set(files), missing.documents)
     except InvalidInput as error:
         if error.code == "ARCHIVE_INVALID":
             raise
@@ -90,10 +103,18 @@ def _validated(parts: Parts) -> tuple[CaseSchema, list[DocumentSchema]]:
     return case, documents
 
 
-def _reject_misfits(documents: Iterable[DocumentSchema], files: set[str]) -> None:
+def _reject_misfits(
+    documents: Iterable[DocumentSchema], files: set[str], missing: Sequence[MissingDocumentSchema]
+) -> None:
     """Reject documents with unknown dependencies, wrong versions or missing files."""
-    earlier: dict[str, DocumentKind] = {}
+    earlier: dict[str, DocumentKind | None] = {one.id: one.kind for one in missing}
+    versions = {(one.kind, one.name, one.version) for one in missing if one.kind is not None}
+    if len(earlier) != len(missing) or len(versions) != sum(one.kind is not None for one in missing):
+        raise archive_error(f"{MANIFEST} states a document as missing twice")
     newest: dict[tuple[DocumentKind, str], int] = {}
+    for one in missing:
+        if one.kind is not None:
+            validate_name(one.name, of="name of a document")
     for document in documents:
         content_to_json(document.content)
         for name in (document.name, document.made_by):
@@ -101,7 +122,10 @@ def _reject_misfits(documents: Iterable[DocumentSchema], files: set[str]) -> Non
                 raise archive_error(f"the name of the document {document.id} is not normalised")
         if document.id in earlier:
             raise archive_error(f"it has two documents {document.id}")
-        if newest.get((document.kind, document.name), 0) + 1 != document.version:
+        expected = newest.get((document.kind, document.name), 0) + 1
+        while (document.kind, document.name, expected) in versions:
+            expected += 1
+        if document.version != expected:
             before = document.version - 1
             raise archive_error(
                 f"the document {document.id} has version {before + 1}, but not version {before}"
@@ -167,11 +191,62 @@ def _insert_case(
                 made_at=file.made_at,
             )
         )
+    for file in parts.manifest.missing.files:
+        session.add(
+            FileRow(
+                case_id=case_id,
+                id=file.id,
+                state=COMPLETE,
+                size_bytes=file.size_bytes,
+                sha256=file.sha256,
+                made_at=parts.manifest.made_at,
+            )
+        )
+    for missing in parts.manifest.missing.documents:
+        _insert_missing(session, case_id, missing, imported)
     session.flush()
     for document in documents:
         row_of_document = _document_row(case_id, document, imported)
         insert_document(session, row_of_document, document.stands_on, document.files)
+    for missing in parts.manifest.missing.documents:
+        _record_newest(session, case_id, missing)
     return case_of(row)
+
+
+def _insert_missing(
+    session: Session, case_id: str, missing: MissingDocumentSchema, imported: ImportRecord
+) -> None:
+    """Insert a row for a missing document, on which others may depend; it matches no checksum."""
+    # A version below 1 is a damaged number.
+    kind = missing.kind.value if missing.kind is not None and missing.version > 0 else UNKNOWN
+    session.add(
+        DocumentRow(
+            case_id=case_id,
+            id=missing.id,
+            kind=kind,
+            name=missing.id if kind == UNKNOWN else missing.name,
+            version=max(1, missing.version),
+            content="",
+            made_at=imported.at,
+            made_by=imported.by,
+            imported_by=imported.by,
+            imported_at=imported.at,
+            checksum="",
+        )
+    )
+
+
+def _record_newest(session: Session, case_id: str, missing: MissingDocumentSchema) -> None:
+    """Record a missing document as the newest version, if no newer one is there."""
+    if missing.kind is None:
+        return
+    row = session.get(NewestVersionRow, (case_id, missing.kind.value, missing.name))
+    if row is None or row.version < missing.version:
+        session.merge(
+            NewestVersionRow(
+                case_id=case_id, kind=missing.kind.value, name=missing.name, version=missing.version
+            )
+        )
 
 
 def _document_row(case_id: str, document: DocumentSchema, imported: ImportRecord) -> DocumentRow:

@@ -42,12 +42,14 @@ class Room:
 
     def __init__(self, snapshot_of: SnapshotOf) -> None:
         self.now_s = 1000.0
+        self.slept_s = 0.0
         self.stored = Retained()
         self.service = AlarmService(
             Config(),
             log=self.stored,
             clock=lambda: self.now_s,
             wall_clock=lambda: datetime(2026, 11, 21, 9, 0, tzinfo=UTC),
+            slept_s=lambda: self.slept_s,
         )
         self.snapshot_of = snapshot_of
         self.number = 0
@@ -275,6 +277,15 @@ def test_facts_of_the_procedure_are_evaluated(room: Room) -> None:
     assert conditions(room.image()) == [Condition.REGISTRATION_OUT_OF_DATE, Condition.CHECK_DUE]
     room.service.set_facts(ProcedureFacts(navigating=False))
     assert room.images(2.0).alarms == ()
+
+
+def test_a_check_becomes_due_while_the_computer_sleeps(room: Room) -> None:
+    room.slept_s = 5000.0
+    room.images(1.0)
+    room.service.set_facts(ProcedureFacts(checked_at_s=room.now_s - 60.0))
+    assert conditions(room.image()) == []
+    room.slept_s += 1750.0
+    assert conditions(room.image()) == [Condition.CHECK_DUE]
 
 
 def test_a_log_or_disk_that_fails_is_an_alarm_at_any_time(room: Room) -> None:

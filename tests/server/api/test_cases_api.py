@@ -200,6 +200,13 @@ def test_damage_is_found_and_reported(door: TestClient, store: CaseStore) -> Non
     for requested in ("archive", f"files/{file_id}"):
         answer = door.get(f"{path}/{requested}")
         assert (answer.status_code, answer.json()["code"]) == (503, "FILE_DAMAGED")
+    answer = door.get(f"{path}/archive?without_damaged=true")
+    assert answer.headers["coaxial-missing"] == "1"
+    assert f'filename="coaxial-case-{case_id[:6]}-incomplete.zip"' in answer.headers["content-disposition"]
+    taken = door.post("/api/cases/archive", content=answer.content).json()
+    assert [(one["file_id"], one["documents"]) for one in taken["damages"]] == [
+        (file_id, ["ct 'main' version 1"])
+    ]
 
 
 @pytest.mark.parametrize(

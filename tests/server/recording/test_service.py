@@ -1,6 +1,7 @@
 """Recordings of the open case: when they start and stop, and which actions are allowed."""
 
 from collections.abc import Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -130,6 +131,28 @@ def test_rotation_deletes_the_oldest_unprotected_recordings_of_all_cases(store: 
     left = {path.name for folder in folders for path in folder.glob("2026010*.mcap")}
     # The second and the third are the oldest without protection; 0.8 kB may stay.
     assert left == {names[0], names[3]}
+
+
+def test_a_clock_that_was_set_back_does_not_make_the_newest_recording_the_oldest(
+    store: CaseStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    theatre = made(store, rotate=True, max_total_gb=1e-6)
+    folder = store.home.cases / theatre.open_a_case() / "recordings"
+    folder.mkdir(parents=True)
+    # Of a version that did not number them.
+    (folder / "20260301T000000Z-0000.mcap").write_bytes(b"x" * 300)
+    for month in (12, 1, 6):
+        now = datetime(2026, month, 1, tzinfo=UTC)
+        monkeypatch.setattr("server.recording.service.utc_now", lambda now=now: now)
+        name = theatre.service.start().name
+        theatre.service.stop()
+        (folder / name).write_bytes(b"x" * 300)
+    # The one without a number had to make room, and not the one of January.
+    assert [one.name[:15] for one in theatre.service.list()] == [
+        "20261201T000000",
+        "20260101T000000",
+        "20260601T000000",
+    ]
 
 
 def test_rotation_deletes_nothing_where_protected_recordings_take_the_budget(store: CaseStore) -> None:

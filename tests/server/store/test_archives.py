@@ -5,7 +5,7 @@ import hashlib
 import json
 import stat
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -26,6 +26,7 @@ from server.store import (
     StoreError,
 )
 from server.store.records import SAYS_ARCHIVE
+from tests.server.store.test_damaged_rows import damage
 from tracker.errors import InvalidInput
 
 PATIENT = "Beeblebrox"
@@ -166,6 +167,18 @@ def first_id(parts: dict[str, bytes]) -> object:
     return json.loads(parts["documents.jsonl"].split(b"\n")[0])["id"]
 
 
+def stated(
+    parts: dict[str, bytes], *, documents: Sequence[str] = (), files: Sequence[str] = (), name: str = "L3"
+) -> object:
+    """What a manifest states as missing."""
+    del parts
+    plan = {"kind": "plan", "name": name, "version": 1}
+    return {
+        "documents": [{"id": one, **plan} for one in documents],
+        "files": [{"id": one, "size_bytes": 1, "sha256": "", "problem": ""} for one in files],
+    }
+
+
 Damaging = Callable[[dict[str, bytes]], object]
 AGREEING: list[tuple[str, Damaging, str]] = [
     ("traversal", lambda parts: parts.update({"../../evil": b"x"}), "does not belong to a case"),
@@ -196,8 +209,23 @@ AGREEING: list[tuple[str, Damaging, str]] = [
     ),
     (
         "newer",
-        lambda parts: changed_manifest(parts, version=2, more=1),
-        "format version 2, but this Coaxial reads version 1",
+        lambda parts: changed_manifest(parts, version=3, more=1),
+        "format version 3, but this Coaxial reads version 2",
+    ),
+    (
+        "missing-and-there",
+        lambda parts: changed_manifest(parts, missing=stated(parts, files=[file_of(parts)[6:]])),
+        "states as missing is there",
+    ),
+    (
+        "missing-twice",
+        lambda parts: changed_manifest(parts, missing=stated(parts, documents=["0" * 16] * 2)),
+        "a document as missing twice",
+    ),
+    (
+        "missing-name-of-controls",
+        lambda parts: changed_manifest(parts, missing=stated(parts, documents=["0" * 16], name="a\nb")),
+        "control characters",
     ),
     ("other-format", lambda parts: changed_manifest(parts, format="recipe"), "manifest.json: format"),
 ]
@@ -307,6 +335,68 @@ def test_a_damaged_file_is_not_copied_out(store: CaseStore, home: Home, case: Ca
     with pytest.raises(StoreError, match="it is missing"):
         store.export_case(case.id)
     assert list(home.temporary.iterdir()) == []
+
+
+def test_what_is_intact_is_copied_out_on_request_and_what_is_missing_stays_named(
+    store: CaseStore, home: Home, case: Case
+) -> None:
+    lost_file = store.files(case.id)[0]
+    with store.new_file(case.id, ".bin") as new:
+        new.path.write_bytes(b"intact")
+    tool = store.put(case.id, DocumentKind.TOOL, "drill", {"mm": 1}, made_by="ito", files=[new.stored.id])
+    (plan, _), (check,) = (
+        store.history(case.id, *of) for of in ((DocumentKind.PLAN, "L3 😀"), (DocumentKind.CHECK, "tip"))
+    )
+    damage(home, "UPDATE documents SET content = '{\"a\":1}' WHERE id = ?", plan.id)
+    lost_file.path.chmod(0o600)
+    lost_file.path.write_bytes(b"other bytes")
+    with pytest.raises(StoreError, match="damaged"):
+        store.export_case(case.id)
+    archive = store.export_case(case.id, without_damaged=True)
+    assert archive.missing == 2
+    parts = parts_of(archive.path)
+    assert not any(b"other bytes" in part or b'{"a": 1}' in part for part in parts.values())
+    manifest = json.loads(parts["manifest.json"])
+    assert (manifest["version"], manifest["missing"]) == (
+        2,
+        {
+            "documents": [{"id": plan.id, "kind": "plan", "name": "L3 😀", "version": 1}],
+            "files": [
+                {
+                    "id": lost_file.id,
+                    "size_bytes": 1280000,
+                    "sha256": lost_file.sha256,
+                    "problem": f"the file {lost_file.id} has 11 bytes, but was stored with 1280000",
+                }
+            ],
+        },
+    )
+    changes: list[Change] = []
+    store.set_change_listener(changes.append)
+    again = store.import_archive(archive.path, by="M. Ito")
+    assert [one.after for one in changes] == ["copied in, without 2 damaged documents and files"]
+    assert [(one.file_id, one.problem, one.documents) for one in store.verify(again.id)] == [
+        (lost_file.id, "missing", ("ct 'main' version 1",)),
+        (plan.id, "document", ("plan 'L3 😀' version 1",)),
+    ]
+    assert store.document(again.id, tool.id).content == {"mm": 1}
+    assert store.file(again.id, new.stored.id).path.read_bytes() == b"intact"
+    outdated = store.validity(store.document(again.id, check.id))
+    assert isinstance(outdated, OutOfDate)
+    with pytest.raises(StoreError):
+        store.file(again.id, lost_file.id)
+    # It is not handed on as complete from there either.
+    with pytest.raises(StoreError, match="damaged"):
+        store.export_case(again.id)
+    handed_on = json.loads(parts_of(store.export_case(again.id, without_damaged=True).path)["manifest.json"])
+    assert handed_on["missing"]["documents"] == manifest["missing"]["documents"]
+    assert handed_on["missing"]["files"][0]["sha256"] == lost_file.sha256
+
+
+def test_a_complete_case_can_be_read_by_earlier_programs(store: CaseStore, case: Case) -> None:
+    archive = store.export_case(case.id, without_damaged=True)
+    manifest = json.loads(parts_of(archive.path)["manifest.json"])
+    assert (archive.missing, manifest["version"], "missing" in manifest) == (0, 1, False)
 
 
 def test_a_case_is_not_deleted_while_it_is_copied_out(

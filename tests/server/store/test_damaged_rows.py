@@ -2,6 +2,7 @@
 
 import sqlite3
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -95,9 +96,15 @@ def test_a_damaged_version_is_named_and_no_older_one_takes_its_place(
         assert isinstance(invalid, OutOfDate)
         assert invalid.why.code == "BASIS_DAMAGED"
         assert isinstance(store.validity(old), OutOfDate)
-        assert [one.problem for one in store.verify(plan.case_id)] == ["document"]
+        assert {one.problem for one in store.verify(plan.case_id)} == {"document"}
         with pytest.raises(StoreError, match="is damaged on the disk"):
             store.export_case(plan.case_id)
+        # An import of the rest does not make an older version valid either.
+        archive = store.export_case(plan.case_id, without_damaged=True)
+        again = store.import_archive(archive.path, by="M. Ito").id
+        assert store.latest(again, PLAN, "main") is None
+        assert [one.heading.title for one in store.outline(again) if one.heading.is_damaged] == [plan.title]
+        assert not store.is_current(replace(registration, case_id=again))
 
 
 @pytest.mark.parametrize(

@@ -6,18 +6,19 @@ import { interpolate } from "../../texts/interpolate";
 import { uploadFile } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
-import type { Case } from "./OpenedCase";
+import type { ImportedCaseMessage } from "../../api";
+import { DamageList } from "./DamageList";
 
 /** Imports a case from an archive, completely or not at all. */
 export function ArchiveIn({ onTaken }: { onTaken: () => void }): ReactNode {
   const texts = useTexts().case;
-  const [taken, setTaken] = useState<Case | null>(null);
+  const [taken, setTaken] = useState<ImportedCaseMessage | null>(null);
   const transfer = useTransfer();
   const take = (file: File): void => {
     setTaken(null);
     void transfer.run(async (onMoved, signal) => {
       const body = new Blob([file], { type: "application/zip" });
-      setTaken(await uploadFile<Case>("/api/cases/archive", body, onMoved, signal));
+      setTaken(await uploadFile<ImportedCaseMessage>("/api/cases/archive", body, onMoved, signal));
       onTaken();
     });
   };
@@ -38,6 +39,12 @@ export function ArchiveIn({ onTaken }: { onTaken: () => void }): ReactNode {
       </div>
       <TransferProgress transfer={transfer} name={texts.archiveIn} />
       {taken !== null && <p role="status">{interpolate(texts.archiveTaken, { name: taken.name })}</p>}
+      {taken !== null && taken.damages.length > 0 && (
+        <div role="alert" className="bad stack">
+          <p>▲ {texts.archiveIncomplete}</p>
+          <DamageList damages={taken.damages} />
+        </div>
+      )}
     </Card>
   );
 }

@@ -36,7 +36,7 @@ export function OpenedCase({ opened, onChange }: { opened: Case; onChange: () =>
         {opened.copied_from !== null && ` · ${texts.case.cameAsArchive}`}
       </p>
       <div className="row">
-        <ArchiveOut caseId={opened.id} />
+        <ArchiveOut key={opened.id} caseId={opened.id} />
         <Button size="lg" variant="default" loading={closing.busy} onClick={close}>
           {texts.case.close}
         </Button>

@@ -6,8 +6,9 @@ import { useAction } from "../../rest/useAction";
 import { getCasesByCaseIdFiles, postCasesByCaseIdVerification, type VerificationMessage } from "../../api";
 import { useTexts } from "../../texts/TextsContext";
 import { Card } from "../parts/Card";
-import { sentence, formatBytes } from "../parts/format";
+import { formatBytes } from "../parts/format";
 import { pluralize } from "../../texts/pluralize";
+import { DamageList } from "./DamageList";
 
 /** Verifies all files of a case on request. */
 export function Verification({ caseId }: { caseId: string }): ReactNode {
@@ -48,13 +49,7 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
       {found?.sound === false && (
         <div role="alert" className="bad stack">
           <p>▲ {texts.filesDamaged}</p>
-          <ul>
-            {found.damages.map((one) => (
-              <li key={one.file_id}>
-                {sentence(one.message)} {one.documents.join(", ")}
-              </li>
-            ))}
-          </ul>
+          <DamageList damages={found.damages} />
           <p>{texts.filesRemedy}</p>
         </div>
       )}
