@@ -308,6 +308,7 @@ def defaults_from_config(config: Config) -> SetupDefaults:
         max_rms_px=config.calibration.max_rms_px,
         reference=config.reference.marker or rehearsed,
         has_camera=config.camera.calibration is not None or knows_itself,
+        has_plan=knows_itself,
         tools=frozenset(config.tools) | (frozenset({REHEARSED_TOOL}) if knows_itself else frozenset()),
     )
 

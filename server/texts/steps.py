@@ -107,6 +107,12 @@ REASONS: Mapping[str, Sentence] = {
         {"en": "no channel is selected for drilling", "de": "es ist kein Kanal zum Bohren gewählt"},
         SELECT_CHANNEL,
     ),
+    "PLAN_OF_REHEARSAL": Sentence(
+        {
+            "en": "{reason}; the figures are of the rehearsal's own plan and registration",
+            "de": "{reason}; die Werte gehören zu Planung und Registrierung des Probebetriebs",
+        }
+    ),
     "CHANNEL_SELECTED": Sentence(
         {"en": "a channel of {vertebra} is to be drilled", "de": "ein Kanal von {vertebra} wird gebohrt"}
     ),

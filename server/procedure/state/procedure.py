@@ -45,6 +45,8 @@ class SetupDefaults:
     Attributes:
         source: name of the camera source.
         has_camera: whether they provide a camera calibration.
+        has_plan: whether a rehearsal provides its own plan and registration, used until a channel of the case
+            is selected.
         tools: names of the configured tools.
         reference: the reference marker on the patient; empty if there is none.
         max_rms_px: RMS of a calibration above which a warning is shown.
@@ -54,6 +56,7 @@ class SetupDefaults:
     max_rms_px: float = CalibrationConfig().max_rms_px
     reference: str = ""
     has_camera: bool = False
+    has_plan: bool = False
     tools: frozenset[str] = frozenset()
 
 
@@ -221,14 +224,15 @@ class Procedure:
         return lost[0] if lost else Finding(state=StepState.MISSING, reason=no_tool)
 
     def _plan(self, case_id: str) -> Finding:
-        found = self._found(case_id, DocumentKind.PLAN, MAIN_PLAN, missing=reason("NOT_PLANNED"))
+        missing = self._without_channel("NOT_PLANNED")
+        found = self._found(case_id, DocumentKind.PLAN, MAIN_PLAN, missing=missing)
         if isinstance(found, Finding):
             return found
         vertebra = self.active_vertebra(case_id)
         if vertebra is None:
             return Finding(
                 state=StepState.MISSING,
-                reason=reason("NO_CHANNEL_SELECTED"),
+                reason=self._without_channel("NO_CHANNEL_SELECTED"),
                 document_id=found.id,
             )
         try:
@@ -238,6 +242,13 @@ class Procedure:
             return _unusable(found, error)
         selected = reason("CHANNEL_SELECTED", {"vertebra": vertebra})
         return _done(found, selected, {"landmarks": len(planned.landmarks)})
+
+    def _without_channel(self, code: str) -> Reason:
+        """Return the reason, with whose plan and registration the figures have meanwhile."""
+        why = reason(code)
+        if not self._defaults.has_plan:
+            return why
+        return reason("PLAN_OF_REHEARSAL", {"reason": why.message}, remedy=why.remedy)
 
     def _check_level(self, case_id: str) -> None:
         """Raise PlanError LEVEL_DOUBTFUL if the active channel lies in the label of another level."""
@@ -249,7 +260,7 @@ class Procedure:
 
     def _registration(self, case_id: str, vertebra: str | None) -> Finding:
         if vertebra is None:
-            return Finding(state=StepState.MISSING, reason=reason("VERTEBRA_UNKNOWN"))
+            return Finding(state=StepState.MISSING, reason=self._without_channel("VERTEBRA_UNKNOWN"))
         missing = reason("NOT_REGISTERED", {"vertebra": vertebra})
         found = self._found(case_id, DocumentKind.REGISTRATION, vertebra, missing=missing)
         if isinstance(found, Finding):

@@ -5,6 +5,7 @@ import pytest
 from server.config import Config
 from server.procedure.steps import defaults_from_config
 from server.setup import build_setup
+from tracker.plan import Channel
 
 
 @pytest.mark.parametrize("reference", [False, True], ids=["camera-alone", "beside-a-reference"])
@@ -15,3 +16,4 @@ def test_the_procedure_and_tracking_agree_on_what_there_is(*, reference: bool, p
     assert defaults.reference == prepared.reference
     assert defaults.tools == set(prepared.tools)
     assert defaults.has_camera is (prepared.camera is not None)
+    assert defaults.has_plan is isinstance(prepared.channel, Channel)

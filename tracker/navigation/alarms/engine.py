@@ -207,6 +207,9 @@ def _is_unseen(was: Occurrence, inputs: AlarmInputs) -> bool:
 _ORDER = {AlarmState.ACTIVE: 0, AlarmState.LATCHED: 1, AlarmState.ACKNOWLEDGED: 2}
 
 
-def _place(alarm: Alarm) -> tuple[bool, int, int, int]:
-    """Sort key: present before cleared, then by priority, then active first, then newest first."""
-    return (alarm.state is AlarmState.LATCHED, -alarm.priority.rank, _ORDER[alarm.state], -alarm.number)
+def _place(alarm: Alarm) -> tuple[int, int, int]:
+    """Sort key: by priority, then active, latched, acknowledged, then newest first.
+
+    A latched alarm has its priority until somebody acknowledges it, so that no lower one takes its place.
+    """
+    return (-alarm.priority.rank, _ORDER[alarm.state], -alarm.number)

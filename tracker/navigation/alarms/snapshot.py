@@ -107,8 +107,7 @@ class AlarmSnapshot:
 
     Attributes:
         at_s: time of the step.
-        alarms: the displayed ones: present before cleared (latched), then by priority, then active first,
-            then newest first.
+        alarms: the displayed ones: by priority, then active, latched, acknowledged, then newest first.
         sound: to play now.
         sound_number: number of the sounding alarm; 0 if none. A new number restarts the sound.
         paused_until_s: latest end of the pause of the sound; 0 if not paused.

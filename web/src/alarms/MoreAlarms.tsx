@@ -49,14 +49,21 @@ export function MoreAlarms({ alarms }: { alarms: readonly AlarmMessage[] }): Rea
           className="alarms-more"
           data-testid="alarms-more"
           data-priority={next?.priority}
+          data-state={next?.state}
           aria-expanded={isOpen}
           aria-controls={sheet}
           onClick={() => {
             setOpen(!isOpen);
           }}
         >
-          <span className="heard-only">{texts.alarms.all}</span>
-          <span className="alarms-count">{others > 0 && `+${String(others)}`}</span>{" "}
+          {others > 0 ? (
+            <>
+              <span className="heard-only">{texts.alarms.all}</span>
+              <span className="alarms-count">+{others}</span>
+            </>
+          ) : (
+            <span className="alarms-details">{texts.alarms.details}</span>
+          )}{" "}
           <span aria-hidden="true">{isOpen ? "▴" : "▾"}</span>{" "}
           {next !== undefined && <span className="alarms-next">{textOf(next.title, texts)}</span>}
         </button>

@@ -4,12 +4,14 @@ import { operatorEn } from "../texts/operator/en";
 import { stateText, stepNote } from "./stepTexts";
 
 test.each([
-  ["navigate", "done", "ready"],
-  ["navigate", "missing", "to do"],
-  ["plan", "done", "done"],
-  ["check", "due", "due again"],
-] as const)("%s that the server calls %s reads %s", (step, state, expected) => {
-  expect(stateText({ step, state }, operatorEn)).toBe(expected);
+  ["navigate", "done", "NAVIGATION_ALLOWED", "ready"],
+  ["navigate", "missing", "WAITS_FOR_STEP", "to do"],
+  ["plan", "done", "CHANNEL_SELECTED", "done"],
+  ["plan", "missing", "NOT_PLANNED", "to do"],
+  ["plan", "missing", "PLAN_OF_REHEARSAL", "rehearsal's own"],
+  ["check", "due", "CHECK_DUE", "due again"],
+] as const)("%s that the server calls %s for %s reads %s", (step, state, code, expected) => {
+  expect(stateText({ step, state, code }, operatorEn)).toBe(expected);
 });
 
 test.each([

@@ -4,7 +4,11 @@ import type { OperatorTexts } from "../texts/operator/en";
 import { pluralize } from "../texts/pluralize";
 import type { Step } from "../app/procedure";
 
-export function stateText({ step, state }: Pick<Step, "step" | "state">, texts: OperatorTexts): string {
+export function stateText(
+  { step, state, code }: Pick<Step, "step" | "state" | "code">,
+  texts: OperatorTexts,
+): string {
+  if (code === "PLAN_OF_REHEARSAL") return texts.ofRehearsal;
   return step === "navigate" && state === "done" ? texts.ready : texts.state[state];
 }
 

@@ -5,6 +5,7 @@ export const alarmsDe: Texts["alarms"] = {
   title: "Alarme",
   none: "Kein Alarm",
   all: "Alle Alarme",
+  details: "Details",
   unknown: "ALARME UNBEKANNT: Der Server antwortet nicht",
   acknowledge: "Quittieren",
   pause: "Ton 120\u00a0s pausieren",

@@ -5,6 +5,7 @@ export const alarmsEn: Texts["alarms"] = {
   title: "Alarms",
   none: "No alarm",
   all: "All alarms",
+  details: "Details",
   unknown: "ALARMS UNKNOWN: the server does not answer",
   acknowledge: "Acknowledge",
   pause: "Pause sound 120\u00a0s",

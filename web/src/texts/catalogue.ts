@@ -108,6 +108,7 @@ export interface Texts {
     | "title"
     | "none"
     | "all"
+    | "details"
     | "unknown"
     | "acknowledge"
     | "pause"

@@ -81,6 +81,19 @@ def test_a_breach_stays_in_sight_until_it_is_acknowledged_and_its_sound_stops_wh
     assert stream.events[-1].by == "surgeon"
 
 
+def test_a_breach_that_is_over_stays_above_lower_alarms_until_it_is_acknowledged() -> None:
+    stream = Stream()
+    stream.images(0.2, clearance_mm=-0.8)
+    stream.images(2.0)
+    picture = stream.images(30.0, armed_screens=0, clearance_mm=0.5)
+    assert [(alarm.condition, alarm.state) for alarm in picture.alarms] == [
+        (Condition.BREACH, AlarmState.LATCHED),
+        (Condition.CLEARANCE_LOW, AlarmState.ACTIVE),
+        (Condition.NO_ARMED_SCREEN, AlarmState.ACTIVE),
+    ]
+    assert picture.sound is Sound.MEDIUM, "what is over is silent"
+
+
 def test_a_breach_that_comes_again_has_its_own_time_and_worst_value_and_the_one_before_stays_in_sight() -> (
     None
 ):

@@ -5,7 +5,7 @@ export const navigateDe: NavigateTexts = {
   open: "Alle Schritte sind gültig.",
   checked: "Prüfung an {landmark} bestanden: {mm} mm, erlaubt {max} mm.",
   recheck: "Erneut prüfen",
-  shutTitle: "Noch keine Navigation",
+  shutTitle: "Dieser Fall ist noch nicht bereit zur Navigation",
   dueTitle: "Wieder fällig; die Navigation läuft weiter",
   goTo: "Öffnen:",
   cameraMoved: {

@@ -3,7 +3,7 @@ export const navigateEn = {
   open: "All steps are valid.",
   checked: "Check on {landmark} passed: {mm} mm, allowed {max} mm.",
   recheck: "Check again",
-  shutTitle: "No navigation yet",
+  shutTitle: "This case is not ready for navigation",
   dueTitle: "Due again; navigation continues",
   goTo: "Open:",
   cameraMoved: {

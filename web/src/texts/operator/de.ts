@@ -20,6 +20,7 @@ export const operatorDe: OperatorTexts = {
     people: "Personen",
   },
   ready: "bereit",
+  ofRehearsal: "Probebetrieb",
   fewLandmarks: {
     one: "Die Planung hat {count} Landmarke. Die Registrierung mit Landmarken braucht mindestens {min}, mit drei Nadeln keine.",
     other:

@@ -18,6 +18,7 @@ export const operatorEn = {
     people: "People",
   },
   ready: "ready",
+  ofRehearsal: "rehearsal's own",
   fewLandmarks: {
     one: "The plan has {count} landmark. Registration with landmarks needs at least {min}; with three needles, none.",
     other:

@@ -12,7 +12,7 @@ export const reasonsEn: Pick<Texts, "cause" | "unseen"> = {
     "server-gone": { state: "SERVER LOST", sentence: "The server does not answer. Retrying automatically." },
     "process-starting": {
       state: "STARTING",
-      sentence: "Tracking is starting. This takes a few seconds.",
+      sentence: "Tracking is starting. This takes a few seconds, at the first start a minute or two.",
     },
     "process-restarting": { state: "RESTARTING", sentence: "Tracking stopped and is restarting." },
     "process-given_up": { state: "TRACKING STOPPED", sentence: "Tracking failed too often. See the alert." },
