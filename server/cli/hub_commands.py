@@ -12,7 +12,7 @@ def theatres(
         typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
     ] = None,
     once: Annotated[
-        bool, typer.Option("--once", help="Print the list once, after 3 s.", show_default=False)
+        bool, typer.Option("--once", help="Print the list once, after 4 s.", show_default=False)
     ] = False,
     json: Annotated[
         bool, typer.Option("--json", help="Write the list once as JSON.", show_default=False)

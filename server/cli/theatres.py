@@ -18,8 +18,8 @@ from server.hub.theatres import Presence, TheatreRow, theatre_rows
 from server.hub.watcher import Watcher
 from server.security.tls import reject_unsafe
 
-# A theatre states itself twice a second, and its delay is known after a beat.
-LISTEN_S = 3.0
+# A theatre states itself twice a second; its delay is known after a beat. Longer than an attempt to connect.
+LISTEN_S = 4.0
 REFRESH_S = 0.25
 NONE_HEARD = 1
 COLOURS = {Presence.LIVE: "", Presence.UNMEASURED: "dim", Presence.STALE: "yellow", Presence.GONE: "dim"}

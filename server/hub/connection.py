@@ -89,11 +89,15 @@ class HubAddress:
         async def on_closed() -> None:
             closed.set()
 
-        async def ignore(_error: Exception) -> None:
-            """Errors of the connection reach the calls that wait for it."""
+        failures: list[Exception] = []
+        client = Client()
+
+        async def note(error: Exception) -> None:
+            # Later errors reach the calls that wait for the connection.
+            if not client.is_connected:
+                failures.append(error)
 
         user, password = self.user or (None, None)
-        client = Client()
         try:
             async with asyncio.timeout(CONNECT_TIMEOUT_S):
                 await client.connect(
@@ -103,15 +107,18 @@ class HubAddress:
                     password=password,
                     tls=self._tls(),
                     allow_reconnect=False,
+                    # It tries twice at once; who wants more tries again later, and knows why it failed.
+                    max_reconnect_attempts=1,
+                    reconnect_time_wait=0,
                     connect_timeout=int(CONNECT_TIMEOUT_S),
                     ping_interval=PING_S,
                     max_outstanding_pings=2,
                     inbox_prefix=f"_INBOX_{name}",
                     closed_cb=on_closed,
-                    error_cb=ignore,
+                    error_cb=note,
                 )
         except LOST as error:
-            raise unreachable(self.url, error) from error
+            raise unreachable(self.url, [*failures, error][0]) from error
         try:
             yield Link(client=client, closed=closed, address=self)
         except LOST as error:

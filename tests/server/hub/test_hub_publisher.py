@@ -178,7 +178,10 @@ def test_after_an_outage_the_theatre_catches_up_and_nothing_is_stored_twice(
         # Killed while it stores them.
         running.until(lambda: running.outbox.waiting < 151)
         own.kill()
-        running.until(lambda: (problem := running.problem()) and problem.code == "HUB_UNREACHABLE")
+        running.until(lambda: (problem := running.problem()) and "Connect call failed" in problem.message)
+        problem = running.problem()
+        assert problem is not None
+        assert problem.code == "HUB_UNREACHABLE"
         running.outbox.append(Leaf.ALARM, ["meanwhile"])
         own.start()
         running.until(lambda: running.outbox.waiting == 0)
