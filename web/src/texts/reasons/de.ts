@@ -18,7 +18,8 @@ export const reasonsDe: Pick<Texts, "cause" | "unseen"> = {
     },
     "process-starting": {
       state: "STARTET",
-      sentence: "Das Tracking wird gestartet. Das dauert einige Sekunden, beim ersten Start ein bis zwei Minuten.",
+      sentence:
+        "Das Tracking wird gestartet. Das dauert einige Sekunden, beim ersten Start ein bis zwei Minuten.",
     },
     "process-restarting": {
       state: "STARTET NEU",
