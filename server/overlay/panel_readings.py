@@ -31,6 +31,8 @@ UNITS = {FigureName.ANGLE: "°"}
 LIMIT: Mapping[Language, str] = {"en": "limit {}", "de": "Grenze {}"}
 OUTSIDE: Mapping[Language, str] = {"en": "outside bone", "de": "außerhalb"}
 REGISTERED: Mapping[Language, str] = {"en": "registered by {}", "de": "registriert über {}"}
+OF_REHEARSAL = "rehearsal's "
+SIDES = {"left": "links", "right": "rechts"}
 IMAGE: Mapping[Language, str] = {
     "en": f"image {{}} · {RESEARCH_SOFTWARE}",
     "de": "Bild {} · Forschungssoftware, kein Medizinprodukt",
@@ -67,11 +69,21 @@ def small_print_of(snapshot: NavigationSnapshot, language: Language) -> tuple[st
     setup = snapshot.setup
     plan = ""
     if setup.camera_calibrated and not isinstance(setup.channel, Absent):
-        plan = setup.channel.name
+        plan = channel_name(setup.channel.name, language)
         if not isinstance(setup.registration, Absent):
             method = METHODS[setup.registration.method][language]
             plan += f" · {REGISTERED[language].format(method)}"
     return plan, IMAGE[language].format(snapshot.image_number)
+
+
+def channel_name(name: str, language: Language) -> str:
+    """Return the name of a channel; only one made by this program, a level and a side, is translated."""
+    level, _, side = name.rpartition(" ")
+    if language == "en" or not level or side not in SIDES:
+        return name
+    if level.startswith(OF_REHEARSAL):
+        return f"{level.removeprefix(OF_REHEARSAL)} {SIDES[side]} · Probebetrieb"
+    return f"{level} {SIDES[side]}"
 
 
 def panel_of(snapshot: NavigationSnapshot, alarms: AlarmSnapshot = QUIET, language: Language = "en") -> Panel:

@@ -184,6 +184,12 @@ def test_the_header_of_a_signed_in_operator_fits_with_the_tour_of_a_rehearsal(
     for width in (1366, 1280, 1180, 1024, 820):
         page.set_viewport_size({"width": width, "height": 820})
         assert page.evaluate("document.documentElement.scrollWidth") <= width
+    page.set_viewport_size({"width": 1180, "height": 820})
+    assert page.locator(".marks-tools").evaluate("tools => tools.scrollHeight <= tools.clientHeight")
+    # On a phone the lower bar covers no figure.
+    page.set_viewport_size({"width": 390, "height": 844})
+    ends = page.locator(".readings").evaluate("figures => figures.getBoundingClientRect().bottom")
+    assert ends <= page.locator(".decisions").evaluate("bar => bar.getBoundingClientRect().top")
 
 
 @pytest.mark.parametrize(("width", "height"), [(1366, 768), (390, 844)])
@@ -191,7 +197,8 @@ def test_hold_marks_and_signatures_are_on_the_first_screen(
     supervised: Supervised, watch: Callable[..., WatchedPage], width: int, height: int
 ) -> None:
     page = opened(watch, supervised, "s1", "supervisor", (width, height))
-    for name in ("video", "hold-ask", "tool-point", "tool-pen", "tool-arrow", "tool-circle"):
+    tools = ("tool-point", "tool-pen", "tool-arrow", "tool-circle", "marks-undo", "marks-clear")
+    for name in ("video", "hold-ask", *tools):
         expect(page.get_by_test_id(name)).to_be_in_viewport(ratio=1)
     for what in ("plan", "registration"):
         page.get_by_test_id(f"fold-{what}").locator("summary").click()

@@ -7,7 +7,7 @@ import pytest
 from server.live import Instant
 from server.number_format import NOT_KNOWN, format_number
 from server.overlay import panel_of
-from server.overlay.panel_readings import small_print_of
+from server.overlay.panel_readings import channel_name, small_print_of
 from server.stream.assessment_messages import AssessmentMessage
 from server.stream.messages import live_message
 from tracker.navigation import NavigationSnapshot
@@ -66,13 +66,22 @@ def test_a_drill_across_the_channel_has_no_entry_offset(snapshot_of: SnapshotOf)
 
 def test_the_small_print_is_of_one_language(snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of()
-    name, number = snapshot.setup.channel.name, snapshot.image_number  # pyrefly: ignore[missing-attribute]  # it is planned
+    number = snapshot.image_number
     assert small_print_of(snapshot, "en") == (
-        f"{name} · registered by the rehearsal",
+        "L3 left · registered by the rehearsal",
         f"image {number} · research software, not a medical device",
     )
     assert small_print_of(snapshot, "de") == (
-        f"{name} · registriert über Probebetrieb",
+        "L3 links · registriert über Probebetrieb",
         f"Bild {number} · Forschungssoftware, kein Medizinprodukt",
     )
     assert small_print_of(snapshot_of(planned=False), "en")[0] == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [("rehearsal's L3 right", "L3 rechts · Probebetrieb"), ("S1 alar", "S1 alar"), ("left", "left")],
+)
+def test_only_names_that_the_program_made_are_translated(name: str, shown: str) -> None:
+    assert channel_name(name, "de") == shown
+    assert channel_name(name, "en") == name

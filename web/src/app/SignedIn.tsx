@@ -5,13 +5,15 @@ import { getPeople } from "../api";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useQuery } from "../rest/useQuery";
 import { useAction } from "../rest/useAction";
+import { personName, roleBeside } from "../room/personName";
 import { useTexts } from "../texts/TextsContext";
 import { isOnlyOperator } from "./onlyOperator";
 import { useSession } from "./session";
 
 /** Who is signed in, and the sign-out button; nothing if the server requires no sign-in. */
 export function SignedIn(): ReactNode {
-  const texts = useTexts().signIn;
+  const all = useTexts();
+  const texts = all.signIn;
   const { session, leave } = useSession();
   const [isConfirming, setIsConfirming] = useState(false);
   const { busy, rejection, run, forget } = useAction();
@@ -38,7 +40,9 @@ export function SignedIn(): ReactNode {
         }}
         data-testid="signed-in"
       >
-        {name} · {texts.role[role]}
+        {[personName(name, all), roleBeside(name, texts.role[role], all)]
+          .filter((part) => part !== "")
+          .join(" · ")}
       </Button>
       <Modal opened={isConfirming} onClose={close} title={texts.leaveTitle} centered withCloseButton={false}>
         {isOnly ? (

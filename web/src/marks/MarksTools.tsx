@@ -66,7 +66,7 @@ export function MarksTools(): ReactNode {
           <Icon name="cross" /> {texts.clearAll}
         </button>
       )}
-      <p role="status" className="marks-problem">
+      <p role="status" className="marks-problem" data-problem={problem !== "" || undefined}>
         {problem !== ""
           ? problem
           : fadesAfterS === null

@@ -22,14 +22,14 @@ export function NumbersState({ children }: { children?: ReactNode }): ReactNode 
   const error = useRef<HTMLParagraphElement>(null);
   const risk = useRef<HTMLParagraphElement>(null);
 
-  usePainter(({ numbers, untrackedMs }) => {
+  usePainter(({ numbers, untrackedMs, newest }) => {
     const live = numbers.live ? numbers.reading.headline : null;
     paintHeadline(headline.current, live, texts);
     setLine(detail.current, live === null ? reasonTexts(numbers, texts) : textOf(live.detail, texts));
     setLine(event.current, eventText(numbers, texts));
     setLine(risk.current, numbers.live ? riskText(numbers.reading.assessment, texts) : "");
     setText(since.current, untrackedMs === null ? "" : formatDuration(untrackedMs));
-    setLine(error.current, errorLine(numbers, texts));
+    setLine(error.current, errorLine(numbers, newest?.source.name ?? "", texts));
   });
 
   return (
@@ -74,10 +74,10 @@ function eventText(numbers: NumbersVerdict, texts: Texts): string {
   return headline === undefined ? "" : textOf(headline.event, texts);
 }
 
-function errorLine(numbers: NumbersVerdict, texts: Texts): string {
+function errorLine(numbers: NumbersVerdict, source: string, texts: Texts): string {
   if (!numbers.live) return "";
   const { tool, assessment, lagMs } = numbers.reading;
-  const lag = lagText(assessment, texts);
+  const lag = lagText(assessment, source, texts);
   const line = `${tool} · ${errorText(assessment, texts)}${lag === "" ? "" : ` · ${lag}`}`;
   // The image's age does not include this delay, so it is shown beside the affected numbers.
   return lagMs > 0 ? `${line} · ${texts.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : line;

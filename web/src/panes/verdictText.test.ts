@@ -29,12 +29,15 @@ test("the nearest wall is named, and a drill outside has none", () => {
 });
 
 test("the lag of a moving tip is shown beside the error, not added to it", () => {
-  const lagging = (lag: AssessmentMessage["lag"]): string => lagText(assessment({ lag }), en);
+  const lagging = (lag: AssessmentMessage["lag"], source = "camera 0"): string =>
+    lagText(assessment({ lag }), source, en);
   expect(lagging(null)).toBe("");
   expect(lagging({ speed_mm_s: 0, latency_ms: 95, margin_mm: 0 })).toBe("");
   expect(lagging({ speed_mm_s: null, latency_ms: 95, margin_mm: null })).toBe("");
   expect(lagging({ speed_mm_s: 40, latency_ms: 95, margin_mm: 3.8 })).toBe(
     "while moving +3.8 mm (40 mm/s × 95 ms)",
   );
-  expect(lagging({ speed_mm_s: 40, latency_ms: null, margin_mm: null })).toBe("moving, latency unknown");
+  const unknown = { speed_mm_s: 40, latency_ms: null, margin_mm: null };
+  expect(lagging(unknown)).toBe("moving: measure the latency in the step Camera");
+  expect(lagging(unknown, "rehearsal")).toBe("moving, latency unknown: simulated camera");
 });

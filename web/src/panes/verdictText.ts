@@ -32,10 +32,13 @@ export function errorText({ figures }: AssessmentMessage, texts: Texts): string 
 }
 
 /** How far a moving tip may lag behind, in addition to the error; empty at rest. */
-export function lagText({ lag }: AssessmentMessage, texts: Texts): string {
+export function lagText({ lag }: AssessmentMessage, source: string, texts: Texts): string {
   const speedMmS = lag?.speed_mm_s ?? 0;
   if (lag === null || speedMmS === 0) return "";
-  if (lag.margin_mm === null || lag.latency_ms === null) return texts.numbers.latencyUnknown;
+  if (lag.margin_mm === null || lag.latency_ms === null) {
+    const { measure, simulated } = texts.numbers.latencyUnknown;
+    return source === "rehearsal" ? simulated : measure;
+  }
   const by = `${formatNumber(speedMmS, 0)} mm/s × ${formatNumber(lag.latency_ms, 0)} ms`;
   return `${texts.numbers.whileMoving} +${formatNumber(lag.margin_mm)} mm (${by})`;
 }

@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { useTexts } from "../texts/TextsContext";
 import { lookText, shortLookText } from "./lookText";
 import type { ConnectionState, PageLook, Person } from "./messages";
-import { personName } from "./personName";
+import { personName, roleBeside } from "./personName";
 import { useRoomSnapshot } from "./RoomContext";
 
 const SYMBOL: Record<ConnectionState, string> = { good: "●", slow: "◐", silent: "▲" };
@@ -32,7 +32,7 @@ export function Viewers(): ReactNode {
             </span>{" "}
             <b>{personName(one.name, all)}</b>{" "}
             {!one.is_you && <Looks pages={pageInFront(one)} text={(page) => shortLookText(page, all)} />}{" "}
-            <span className="watching-role">{texts.role[one.role]}</span>
+            <span className="watching-role">{roleBeside(one.name, texts.role[one.role], all)}</span>
             {one.is_you && <span className="watching-role"> · {texts.you}</span>}
             {/* Seen by its symbol and colour: words that come and go would move the page. */}
             {one.line !== "good" && <em className="heard-only"> · {texts.line[one.line]}</em>}
@@ -53,7 +53,8 @@ export function ViewerLooks(): ReactNode {
     <ul className="looks" aria-label={texts.what} data-testid="looks">
       {people.map((one) => (
         <li key={`${one.name} ${one.role} ${one.since}`}>
-          <b>{personName(one.name, all)}</b> <span className="watching-role">{texts.role[one.role]}</span>
+          <b>{personName(one.name, all)}</b>{" "}
+          <span className="watching-role">{roleBeside(one.name, texts.role[one.role], all)}</span>
           {one.is_you && <span className="watching-role"> · {texts.you}</span>}
           {one.line !== "good" && <em> · {texts.line[one.line]}</em>}
           <Looks pages={one.pages} text={(page) => lookText(page, all)} />

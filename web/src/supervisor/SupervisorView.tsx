@@ -48,7 +48,7 @@ export function SupervisorView(): ReactNode {
             {texts.product} <small>{own.title}</small>
           </h1>
           <p className="notice">
-            {texts.notice}. {own.nothingMoves}
+            {texts.notice}. <span className="notice-more">{own.nothingMoves}</span>
           </p>
           <RecordingState />
           <ViewSwitch />

@@ -51,7 +51,7 @@ export interface Texts {
     steadied: string;
     whileMoving: string;
     nearerTo: string;
-    latencyUnknown: string;
+    latencyUnknown: Record<"measure" | "simulated", string>;
     trend: string;
   };
   reading: Record<

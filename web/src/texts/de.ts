@@ -51,7 +51,10 @@ export const de: Texts = {
     steadied: "geglättet, verzögert um",
     whileMoving: "in Bewegung",
     nearerTo: "Bohrer näher an {channel} · Wechsel unter Navigation",
-    latencyUnknown: "in Bewegung, Latenz unbekannt",
+    latencyUnknown: {
+      measure: "in Bewegung: Latenz im Schritt Kamera messen",
+      simulated: "in Bewegung, Latenz unbekannt: simulierte Kamera",
+    },
     trend: "{figure} der letzten 30 s, mit Grenze",
   },
   reading: {

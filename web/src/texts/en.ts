@@ -53,7 +53,10 @@ export const en: Texts = {
     steadied: "smoothed, delayed by",
     whileMoving: "while moving",
     nearerTo: "Drill nearer to {channel} · switch under Navigation",
-    latencyUnknown: "moving, latency unknown",
+    latencyUnknown: {
+      measure: "moving: measure the latency in the step Camera",
+      simulated: "moving, latency unknown: simulated camera",
+    },
     trend: "{figure} in the last 30 s, with its limit",
   },
   reading: {

@@ -4,6 +4,7 @@ import { useLive } from "../live/LiveContext";
 import { Fact } from "../panes/Fact";
 import { serverStateOf } from "../panes/serverState";
 import { useTexts } from "../texts/TextsContext";
+import { channelName } from "./channelName";
 import { checkText, registrationText, type StatusText } from "./statusTexts";
 
 /** Good states are not shown as good beside a picture or figures that are too old. */
@@ -24,6 +25,12 @@ export function NavigationStatus(): ReactNode {
   const check = dimmed(checkText(snapshot, known, t), isOfNow);
   const unknown = isConnected && procedure.rejection !== null ? t.unknown : "—";
   const unseen = isConnected ? t.unknown : "—";
+  const channel =
+    snapshot === null
+      ? unseen
+      : snapshot.channel_name === null
+        ? t.noChannel
+        : channelName(snapshot.channel_name, texts);
   return (
     <dl className="facts facts-navigated" aria-label={t.facts}>
       <Fact
@@ -31,11 +38,7 @@ export function NavigationStatus(): ReactNode {
         value={known === null ? unknown : (known.case_name ?? t.noCase)}
         testid="case-name"
       />
-      <Fact
-        name={t.channel}
-        value={snapshot === null ? unseen : (snapshot.channel_name ?? t.noChannel)}
-        testid="channel-name"
-      />
+      <Fact name={t.channel} value={channel} testid="channel-name" />
       <Fact name={t.registration} {...(registration ?? { value: unseen })} testid="registered-by" />
       {check !== null && <Fact name={t.check} {...check} testid="checked" />}
     </dl>

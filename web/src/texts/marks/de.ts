@@ -11,9 +11,8 @@ export const marksDe: MarksTexts = {
   clear: "Meine löschen",
   clearAll: "Alle löschen",
   ago: "vor # s",
-  seenBy:
-    "Für alle sichtbar, die zusehen; auf einem Schnitt in jedem Schnitt bis 2 mm entfernt und in 3-D. Ein Klick auf den Knochen in 3-D markiert einen Punkt.",
-  fades: "Der Zeiger verschwindet 2 s nach seiner letzten Bewegung, eine Zeichnung # s nach ihrem Bild.",
+  seenBy: "Für alle sichtbar, die zusehen.",
+  fades: "Der Zeiger verschwindet nach 2 s, eine Zeichnung # s nach ihrem Bild.",
   lineGone: "Keine Verbindung: Niemand sieht, was Sie zeigen.",
   noPicture: "Zeichnen ist nur auf einem Live-Bild möglich.",
 };

@@ -9,9 +9,8 @@ export const marksEn = {
   clear: "Clear mine",
   clearAll: "Clear all",
   ago: "# s ago",
-  seenBy:
-    "Visible to everybody who is watching; a mark on a cut in every cut within 2 mm and in 3-D. A click on the bone in 3-D marks a point.",
-  fades: "The pointer disappears 2 s after its last movement, a drawing # s after its image.",
+  seenBy: "Visible to everybody who is watching.",
+  fades: "The pointer disappears after 2 s, a drawing # s after its image.",
   lineGone: "No connection: nobody sees what you mark.",
   noPicture: "Drawing is possible only on a live picture.",
 };

@@ -68,6 +68,7 @@ export const theatreDe: TheatreTexts = {
   noCase: "kein Fall offen",
   channel: "Kanal",
   noChannel: "keiner gewählt",
+  ofRehearsal: "Probebetrieb",
   registration: "Registrierung",
   by: {
     needles: "mit Nadeln",

@@ -66,6 +66,7 @@ export const theatreEn = {
   noCase: "no case open",
   channel: "Channel",
   noChannel: "none chosen",
+  ofRehearsal: "rehearsal",
   registration: "Registration",
   by: {
     needles: "by needles",
