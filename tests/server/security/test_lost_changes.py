@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from server.cli.access_control import AccessControl
+from server.config import Config
 from server.security.audit import AuditLog, Entry, mark_lost_changes
 from server.security.person import SERVER
 from server.store import CaseStore, DocumentKind, Home
@@ -35,10 +37,7 @@ def written(tmp_path: Path) -> Path:
 def started(folder: Path) -> list[tuple[int, bool, bool]]:
     """Version, damage and validity of all documents after the next start."""
     with Home(folder) as home, CaseStore(home) as store:
-        audit = AuditLog(folder / "security")
-        store.set_change_listener(audit.record_change)
-        audit.append(Entry(who=SERVER, what="start"))
-        mark_lost_changes(store, audit)
+        AccessControl.of(Config(), store, new_operator_link=False)
         (case,) = store.list()
         headings = [one.heading for one in store.outline(case.id)]
         return [(one.version, one.is_damaged, store.is_current(one)) for one in headings]
