@@ -5,7 +5,7 @@ from datetime import timedelta
 
 from server.config import Config
 from server.security import AuditLog, PeopleService
-from server.security.audit import Entry
+from server.security.audit import Entry, mark_lost_changes
 from server.security.people import Token
 from server.security.person import SERVER
 from server.security.tls import Tls, select_tls
@@ -33,6 +33,8 @@ class AccessControl:
     def of(cls, config: Config, store: CaseStore, *, new_operator_link: bool) -> "AccessControl":
         """Open sign-in and audit log in the home folder, and record the start in the audit log.
 
+        Changes that the audit log has and the store has lost are marked.
+
         Raises:
             ConfigError: the certificate is not usable.
             StoreError: sign-in data or audit log cannot be written.
@@ -50,6 +52,7 @@ class AccessControl:
         operator = people.operator_token(wanted=new_operator_link)
         store.set_change_listener(audit.record_change)
         audit.append(Entry(who=SERVER, what="start", changes=tuple(_printed(operator))))
+        mark_lost_changes(store, audit)
         return cls(people=people, tls=tls, operator=operator)
 
     def startup_lines(self, host: str) -> list[str]:

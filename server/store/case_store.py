@@ -1,6 +1,6 @@
 """The public interface of the store."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
@@ -26,6 +26,7 @@ from server.store.records import (
     Damage,
     Document,
     DocumentKind,
+    DocumentVersion,
     Entry,
     Heading,
     OutOfDate,
@@ -35,6 +36,7 @@ from server.store.records import (
 )
 from server.store.tables import PRESENT
 from server.store.validation import validate_name
+from server.texts import WITHDRAWALS
 
 
 class CaseStore:
@@ -351,6 +353,35 @@ class CaseStore:
         (stored,) = self._add(restored.case_id, new)
         self._on_change(replace(Change.added(stored), before=restored.version))
         return stored
+
+    def mark_lost(
+        self, added: Collection[DocumentVersion], withdrawn: Mapping[DocumentVersion, str]
+    ) -> Sequence[DocumentVersion]:
+        """List confirmed versions that are newer than those that are there as damaged; repeat withdrawals.
+
+        Args:
+            added: versions that were confirmed, in any order; those of deleted cases are ignored.
+            withdrawn: who withdrew them, by version.
+
+        Returns:
+            What was lost.
+        """
+        with self._database.read_session() as session:
+            lost = documents.lost_versions(session, added)
+            valid = documents.not_withdrawn(session, withdrawn)
+        for one, document_id in valid.items():
+            reason = WITHDRAWALS["WITHDRAWAL_LOST"]["en"]
+            self.withdraw(self._heading(one.case_id, document_id), by=withdrawn[one], reason=reason)
+        for one in lost:
+            with self._database.write_session() as session:
+                documents.record_newest(session, one)
+            lost_version = f"version {one.version} lost on the disk"
+            self._on_change(
+                Change(
+                    case_id=one.case_id, kind=one.kind.value, name=one.name, before=None, after=lost_version
+                )
+            )
+        return (*valid, *lost)
 
     def _forget_after_commit(self, session: Session) -> None:
         event.listen(session, "after_commit", lambda _: self._index.forget(), once=True)

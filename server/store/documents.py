@@ -18,10 +18,18 @@ from sqlalchemy.orm import Session
 from server.store.cases import new_id
 from server.store.checksums import document_checksum
 from server.store.errors import NotFound, StoreConflict, StoreError
-from server.store.records import Document, DocumentKind, Heading, ImportRecord, Withdrawal
+from server.store.records import (
+    Document,
+    DocumentKind,
+    DocumentVersion,
+    Heading,
+    ImportRecord,
+    Withdrawal,
+)
 from server.store.tables import (
     COMPLETE,
     BasisRow,
+    CaseRow,
     DocumentFileRow,
     DocumentRow,
     FileRow,
@@ -290,6 +298,54 @@ def recorded_versions(session: Session, case_id: str) -> dict[tuple[str, str], o
     columns = (NewestVersionRow.kind, NewestVersionRow.name, NewestVersionRow.version)
     rows = session.execute(select(*columns).where(NewestVersionRow.case_id == case_id))
     return {(row.kind, row.name): row.version for row in rows}
+
+
+def lost_versions(session: Session, confirmed: Iterable[DocumentVersion]) -> list[DocumentVersion]:
+    """Return the newest confirmed version of each name, if it is newer than the recorded one of its case."""
+    recorded = {
+        (row.case_id, row.kind, row.name): row.version
+        for row in session.scalars(select(NewestVersionRow))
+        if row is not None
+    }
+    cases = set(session.scalars(select(CaseRow.id)))
+    newest = {(one.case_id, one.kind.value, one.name): one for one in sorted(confirmed)}
+    return [
+        one
+        for key, one in newest.items()
+        if one.case_id in cases and _is_newer(session, one, recorded.get(key))
+    ]
+
+
+def _is_newer(session: Session, confirmed: DocumentVersion, recorded: object) -> bool:
+    if isinstance(recorded, int):
+        return confirmed.version > recorded
+    # Without its record a document counts as lost already, if there is a row of it.
+    same = (DocumentRow.kind == confirmed.kind.value, DocumentRow.name == confirmed.name)
+    rows = select(DocumentRow.id).where(DocumentRow.case_id == confirmed.case_id, *same).limit(1)
+    return session.execute(rows).first() is None
+
+
+def not_withdrawn(session: Session, confirmed: Iterable[DocumentVersion]) -> dict[DocumentVersion, str]:
+    """Return the ids of the intact ones of these versions that are not withdrawn."""
+    found = {}
+    for one in confirmed:
+        same = (DocumentRow.kind == one.kind.value, DocumentRow.name == one.name)
+        of_version = (*same, DocumentRow.version == one.version, DocumentRow.withdrawn_at.is_(None))
+        rows = select(DocumentRow.id).where(DocumentRow.case_id == one.case_id, *of_version)
+        if session.execute(rows).first() is not None:
+            for stored in stored_documents(session, one.case_id, *of_version):
+                if stored.heading is not None:
+                    found[one] = stored.id
+    return found
+
+
+def record_newest(session: Session, newest: DocumentVersion) -> None:
+    """Record that there is this version, which counts as lost while its row is missing."""
+    session.merge(
+        NewestVersionRow(
+            case_id=newest.case_id, kind=newest.kind.value, name=newest.name, version=newest.version
+        )
+    )
 
 
 def _next_version(session: Session, case_id: str, new: NewDocument) -> int:

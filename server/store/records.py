@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from enum import StrEnum
 from pathlib import Path
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from server.texts import Reason, Text, document_title
 
@@ -161,6 +161,15 @@ class Document(Heading):
     def of(cls, heading: Heading, content: Mapping[str, object]) -> "Document":
         """Return the document with this heading."""
         return cls(**{field.name: getattr(heading, field.name) for field in fields(Heading)}, content=content)
+
+
+class DocumentVersion(NamedTuple):
+    """One version of a document, by what people call it."""
+
+    case_id: str
+    kind: DocumentKind
+    name: str
+    version: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -324,4 +324,8 @@ WITHDRAWALS: Mapping[str, Text] = {
     },
     "SCREW_NOT_PLACED": {"en": "the screw is not placed", "de": "die Schraube ist nicht gesetzt"},
     "MARKER_REMOVED": {"en": "the marker was removed", "de": "der Marker wurde entfernt"},
+    "WITHDRAWAL_LOST": {
+        "en": "it was withdrawn before, and the disk has lost that",
+        "de": "es wurde schon zurückgezogen, und die Platte hat das verloren",
+    },
 }

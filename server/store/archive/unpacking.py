@@ -21,10 +21,10 @@ from server.store.archive.schema import (
 from server.store.case_database import CaseDatabase
 from server.store.cases import add_case, case_of
 from server.store.cleanup import remove_case
-from server.store.documents import insert_document
+from server.store.documents import insert_document, record_newest
 from server.store.errors import translate_errors
 from server.store.files import READ_ONLY, UNFINISHED, make_folder
-from server.store.records import Case, DocumentKind, ImportRecord, says_archive
+from server.store.records import Case, DocumentKind, DocumentVersion, ImportRecord, says_archive
 from server.store.tables import (
     COMPLETE,
     IMPORTING,
@@ -242,11 +242,7 @@ def _record_newest(session: Session, case_id: str, missing: MissingDocumentSchem
         return
     row = session.get(NewestVersionRow, (case_id, missing.kind.value, missing.name))
     if row is None or row.version < missing.version:
-        session.merge(
-            NewestVersionRow(
-                case_id=case_id, kind=missing.kind.value, name=missing.name, version=missing.version
-            )
-        )
+        record_newest(session, DocumentVersion(case_id, missing.kind, missing.name, missing.version))
 
 
 def _document_row(case_id: str, document: DocumentSchema, imported: ImportRecord) -> DocumentRow:

@@ -248,6 +248,15 @@ def test_a_flipped_bit_is_without_effect_or_named(tmp_path: Path) -> None:
     assert result.outcomes["named"]
 
 
+def test_a_flipped_bit_of_the_journal_after_a_crash_loses_no_confirmed_change_silently(
+    tmp_path: Path,
+) -> None:
+    result = flip_bits(tmp_path / "a", flips=6, seed=1, in_journal=True)
+    assert (result.silent, result.outcomes) == ([], {"named": 6})
+    with fault_of("no-audit"):
+        assert flip_bits(tmp_path / "b", flips=1, seed=1, in_journal=True).silent
+
+
 @pytest.mark.parametrize("fault", ["no-checksum", "no-newest-version"])
 def test_flips_find_a_store_without_checksums(tmp_path: Path, fault: str) -> None:
     with fault_of(fault):
