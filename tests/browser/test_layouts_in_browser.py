@@ -68,6 +68,11 @@ def test_each_layout_has_all_figures_and_the_same_alarms(shared_theatre: Theatre
         bands.add((band["x"], band["y"], band["width"]))
         save_screenshot(page, f"layout-{layout}")
     assert len(bands) == 1
+    page.set_viewport_size({"width": 390, "height": 844})
+    hints = page.locator(".reading-name small")
+    assert "before entry" in hints.all_inner_texts()
+    assert hints.evaluate_all("hints => hints.filter(one => one.scrollWidth > one.clientWidth).length") == 0
+    page.set_viewport_size({"width": 1920, "height": 1080})
     # A key does nothing before it is set on this screen.
     page.keyboard.press("F8")
     expect(page.get_by_test_id("theatre")).to_have_attribute("data-layout", "overview")
