@@ -447,14 +447,14 @@ class HubTlsConfig(Section):
 
 
 class HubConfig(Section):
-    """Publication of this theatre through a NATS server of the hospital, and the hub's own server."""
+    """NATS server of the hospital, through which this theatre publishes, and `coaxial theatres` reads."""
 
     url: Annotated[str, StringConstraints(pattern=r"^(nats|tls)://[^/@\s]+$")] | None = None
     """tls://host:4222; default: off."""
     hospital: Name = "hospital"
     """First part of all subjects, so that several hospitals can share a NATS server."""
     theatre: Name | None = None
-    """Name of this theatre, which no other may have at the same time; the hub's own server needs none."""
+    """Name of this theatre, which no other may have at the same time; `coaxial theatres` needs none."""
     credentials: FilePath | None = None
     """File with one line, `user:password`; default: none, as with a client certificate."""
     tls: HubTlsConfig = HubTlsConfig()

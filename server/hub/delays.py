@@ -14,9 +14,9 @@ class Arrival:
     """Arrival of a message, and what is known of its age then.
 
     Attributes:
-        arrived_s: Monotonic time of the arrival at the hub. transfer_ms: Upper bound of the time from the
-        theatre's sending to the arrival: the round trip of the beat
-            that it returns. None while the theatre has returned no beat of this hub.
+        arrived_s: Monotonic time of the arrival at the hub.
+        transfer_ms: Upper bound of the time from the theatre's sending to the arrival: the round trip of the
+            beat that it returns. None while the theatre has returned no beat of this hub.
         age_ms: Age of the image at the theatre's sending; None without an image.
     """
 

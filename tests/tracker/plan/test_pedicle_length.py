@@ -197,7 +197,7 @@ def test_a_wall_is_at_the_outside_of_its_cortex_however_thin(cortex_mm: float) -
 def test_an_endplate_beside_a_disc_that_the_solid_fills_is_met_obliquely() -> None:
     """The length then depends on the wall by the inverse of the cosine, as stated."""
     start, axis = np.array([14.0, 4.0, 9.0]), np.array([0.25, np.sqrt(1.0 - 0.25**2), 0.0])
-    near, solid = bone_up_to_a_wall(1.0), solid_up_to(axis, axis @ start + 9.0)
+    near, solid = bone_up_to_a_wall(1.0), solid_up_to(axis, float(axis @ start) + 9.0)
     wall = _wall(near, solid, IMAGING, start, axis, from_mm=2.0, exit_mm=9.0)
     assert wall.faced_ratio == pytest.approx(0.25, abs=0.05)
     assert wall.sd_mm > 2.0
