@@ -26,6 +26,10 @@ from tracker.navigation.alarms import ALARM_RULES, Alarm, AlarmSnapshot, AlarmSt
 from tracker.navigation.clearance import WallSource
 from tracker.pose import Seen, Unseen, is_twice_in_view
 
+# A drill that is half a vertebra off the entry is carried or laid aside, and gets no correction. Higher: the
+# headline corrects a drill that is laid aside; lower: it leads nobody from nearby to the entry.
+MAX_CORRECTION_MM = 30.0
+
 
 class Tone(StrEnum):
     """Colour of a headline; symbol and text carry the same information as the colour."""
@@ -138,6 +142,8 @@ def _title(assessment: Assessment, language: Language) -> str:
         return ACROSS[language]
     if verdict is Verdict.CORRECT_END and isnan(figures[FigureName.END].value):
         return MISSES[language]
+    if verdict is Verdict.CORRECT_ENTRY and figures[FigureName.ENTRY].value > MAX_CORRECTION_MM:
+        return FAR_OFF[language].format(entry_mm=amount(figures[FigureName.ENTRY].value, "mm", language))
     of_channel = assessment.against is WallSource.CHANNEL
     if of_channel and verdict in CHANNEL_TITLES[language]:
         words = CHANNEL_TITLES[language]
@@ -213,6 +219,7 @@ def _one_event(alarm: Alarm, unix_offset_s: float, language: Language) -> str:
 
 NO_IMAGE: Text = {"en": "NO IMAGE", "de": "KEIN BILD"}
 ACROSS: Text = {"en": "DRILL ACROSS CHANNEL", "de": "BOHRER QUER ZUM KANAL"}
+FAR_OFF: Text = {"en": "ENTRY {entry_mm} AWAY", "de": "EINTRITT {entry_mm} ENTFERNT"}
 MISSES: Text = {"en": "MISSES PEDICLE", "de": "VERFEHLT PEDIKEL"}
 MISSES_DETAIL: Text = {
     "en": "this direction does not lead into the pedicle",

@@ -38,6 +38,13 @@ def headline_at(snapshot_of: SnapshotOf, depth_mm: float, **off: float) -> Headl
             id="entry",
         ),
         pytest.param(
+            {"depth_mm": -60.0, "medial_mm": 40.0, "cranial_mm": 30.0},
+            Tone.CAUTION,
+            "ENTRY 50.0 mm AWAY",
+            "entry 50.0 mm, limit 1.8 mm",
+            id="laid-aside",
+        ),
+        pytest.param(
             {"depth_mm": 5.0, "medial_deg": 6.0},
             Tone.CAUTION,
             "AIM 6.0° lateral",

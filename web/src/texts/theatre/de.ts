@@ -61,7 +61,7 @@ export const theatreDe: TheatreTexts = {
       unsupported: "Dieser Browser kann keine Schnitte berechnen: Er unterstützt keine Web Worker.",
     },
   },
-  split: { entry: "Eintritt", angle: "Richtung" },
+  split: { entry: "Bohrer liegt", angle: "Bohrer zeigt" },
   side: { lateral: "lateral", medial: "medial", cranial: "kranial", caudal: "kaudal" },
   facts: "Angaben zur Navigation",
   case: "Fall",

@@ -59,7 +59,7 @@ export const theatreEn = {
       unsupported: "This browser cannot compute cuts: it does not support web workers.",
     },
   },
-  split: { entry: "Entry", angle: "Direction" },
+  split: { entry: "Drill lies", angle: "Drill points" },
   side: { lateral: "lateral", medial: "medial", cranial: "cranial", caudal: "caudal" },
   facts: "Navigation details",
   case: "Case",
