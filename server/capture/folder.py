@@ -159,7 +159,7 @@ def _unreadable(reason_from_file: Mapping[Path, str]) -> CaptureError:
         return CaptureError(
             "FOLDER_IMAGE_UNREADABLE",
             f"the image {first[0][0]} cannot be used: {first[0][1]}",
-            "Replace it or remove it from the folder; it is skipped until then.",
+            "Replace the image or remove it from the folder; it is skipped until then.",
             {**context, "images": count, "image_problem": first[0][1]},
         )
     rest = f" and {count - MAX_NAMED} more" if count > MAX_NAMED else ""

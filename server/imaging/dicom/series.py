@@ -50,7 +50,7 @@ def group_frames_by_series(container: Container, progress: Progress) -> dict[str
             {
                 **{one.reason.replace(" ", "_"): one.count for one in container.left_out},
                 "files": files,
-                "excluded_files": excluded,
+                "excluded_list": excluded,
             },
         )
     return series

@@ -486,8 +486,8 @@ CASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "CT_NO_DICOM": (
         {
-            "en": "no DICOM slice among {files} files: {excluded_files}",
-            "de": "keine DICOM-Schicht unter {files} Dateien: {excluded_files}",
+            "en": "no DICOM slice among {files} files: {excluded_list}",
+            "de": "keine DICOM-Schicht unter {files} Dateien: {excluded_list}",
         },
     ),
     "CT_DOCUMENT_INVALID": (

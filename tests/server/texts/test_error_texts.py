@@ -7,7 +7,7 @@ import pytest
 
 from server.texts import error_reason, reason_of_error
 from server.texts.errors.catalogue import MESSAGES, REMEDIES
-from server.texts.errors.phrases import PHRASES
+from server.texts.errors.phrases import AREAS, PHRASES
 from server.texts.errors.phrases.system import SYSTEM_ERRORS
 from server.texts.steps import REASONS
 from tests.server.texts.error_sites import error_sites, shape_of
@@ -64,6 +64,10 @@ def test_no_english_template_is_listed_twice() -> None:
         assert len(english) == len(set(english)), english
     german = {one: {text["de"] for text in REMEDIES if text["en"] == one} for one in remedies}
     assert all(len(one) == 1 for one in german.values())
+
+
+def test_no_name_of_a_phrase_is_in_two_areas() -> None:
+    assert len(PHRASES) == sum(map(len, AREAS))
 
 
 def test_each_error_that_a_page_can_show_has_german() -> None:

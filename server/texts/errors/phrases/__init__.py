@@ -19,15 +19,17 @@ from server.texts.errors.phrases.remarks import REMARKS
 from server.texts.errors.phrases.tool import TOOL
 from server.texts.language import Text
 
-PHRASES: Mapping[str, tuple[Text, ...]] = {
-    **ACCESS,
-    **ACCURACY,
-    **CAMERA,
-    **CASES,
-    **LABELS,
-    **PROCESS,
-    **RECORDINGS,
-    **REGISTRATION,
-    **REMARKS,
-    **TOOL,
-}
+# A name in two areas would lose the phrases of one.
+AREAS = (
+    ACCESS,
+    ACCURACY,
+    CAMERA,
+    CASES,
+    LABELS,
+    PROCESS,
+    RECORDINGS,
+    REGISTRATION,
+    REMARKS,
+    TOOL,
+)
+PHRASES: Mapping[str, tuple[Text, ...]] = {name: phrases for area in AREAS for name, phrases in area.items()}

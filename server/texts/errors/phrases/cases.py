@@ -141,14 +141,14 @@ CASES: Mapping[str, tuple[Text, ...]] = {
     "excluded_hint": (
         NO_TEXT,
         {
-            "en": ", only {excluded_files}",
-            "de": ", nur {excluded_files}",
+            "en": ", only {excluded_list}",
+            "de": ", nur {excluded_list}",
         },
     ),
-    "excluded_files": (
+    "excluded_list": (
         {
-            "en": "{count} {excluded_kind}; {excluded_files}",
-            "de": "{count} {excluded_kind}; {excluded_files}",
+            "en": "{count} {excluded_kind}; {excluded_list}",
+            "de": "{count} {excluded_kind}; {excluded_list}",
         },
         {
             "en": "{count} {excluded_kind}",

@@ -340,8 +340,8 @@ CAMERA: tuple[Text, ...] = (
         "de": "V und H von der Kamera zum Objekt in mm neu messen, und eine Verschiebung, die zu sehen ist.",
     },
     {
-        "en": "Replace it or remove it from the folder; it is skipped until then.",
-        "de": "Es ersetzen oder aus dem Ordner entfernen; bis dahin wird es übersprungen.",
+        "en": "Replace the image or remove it from the folder; it is skipped until then.",
+        "de": "Das Bild ersetzen oder aus dem Ordner entfernen; bis dahin wird es übersprungen.",
     },
     {
         "en": "Replace them or remove them from the folder; they are skipped until then.",
