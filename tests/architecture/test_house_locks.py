@@ -144,3 +144,5 @@ def test_the_audit_reads_every_lock() -> None:
     for lock in set(LOCKS) - {"requirements-lowest.lock"}:
         assert {entry.split(";")[0].split()[0] for entry in entries(text_of(lock))} <= known, lock
     assert "web npm audit" in audit
+    # Otherwise it passes without an answer for any package.
+    assert "--strict" in audit
