@@ -101,7 +101,8 @@ def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
     low = np.clip(np.floor(index - reach).astype(int), 0, np.array(volume.shape_ijk) - 2)
     high = np.clip(np.ceil(index + reach).astype(int) + 1, low + 2, np.array(volume.shape_ijk))
     raw = volume.hu[low[2] : high[2], low[1] : high[1], low[0] : high[0]]
-    block = np.clip(raw.astype(np.float32), -1024.0, MAX_HU)
+    # NIfTI has its voxels in another order, which OpenCV does not take.
+    block = np.clip(raw.astype(np.float32, order="C"), -1024.0, MAX_HU)
     affine = np.array(volume.lps_from_ijk)
     affine[:3, 3] = volume.lps_from_index(low.astype(np.float64))
     spacing = volume.spacing_mm[::-1]
