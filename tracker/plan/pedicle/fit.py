@@ -137,8 +137,7 @@ def imaging_of(near: Neighbourhood, fitted: FittedBar, axis: Array) -> Imaging:
     cortex_share = 1.0 / (1.0 + variance[tube_model.CORTEX] / CORTEX_SD_HU**2)
     cortex_hu = USUAL_CORTEX_HU + cortex_share * (p[tube_model.CORTEX] - USUAL_CORTEX_HU)
     local_hu = LOCAL_CORTEX_RATIO * (cortex_hu - near.tissue_hu)
-    slices = np.cross(near.lps_from_index[:3, 0], near.lps_from_index[:3, 1])
-    through = float((axis @ slices / np.linalg.norm(slices)) ** 2)
+    through = float((axis @ near.slice_normal) ** 2)
     blur_mm2 = np.exp(2.0 * p[tube_model.BLURS]) @ [1.0 - through, through]
     return Imaging(
         cortex_hu=float(cortex_hu),
@@ -262,10 +261,9 @@ def _samples(
     parts, offsets = _parts(near, frame, half)
     part_mm = near.voxel_width_mm(normal) / parts
     beside_mm = near.voxel_width_mm(np.cross(frame[0], normal)) / parts
-    slices = np.cross(sides[:, 0], sides[:, 1])
     columns = [along[rows], local[rows, 1], local[rows, 2], part_mm.max(axis=1)]
     columns += [(part_mm**2).sum(axis=1) / 12.0 - columns[3] ** 2 / 12.0, (beside_mm**2).sum(axis=1) / 12.0]
-    columns += [(normal @ (slices / np.linalg.norm(slices))) ** 2]
+    columns += [(normal @ near.slice_normal) ** 2]
     return tube_model.Samples(
         rows=np.ascontiguousarray(np.stack(columns, axis=1)), offsets=offsets, hu=hu[rows]
     )

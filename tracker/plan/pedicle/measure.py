@@ -10,7 +10,7 @@ from tracker.geometry import Array
 from tracker.plan.pedicle import rejections, tube_model
 from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
 from tracker.plan.pedicle.fit import FittedBar, fit_bar, imaging_of, voxel_across_mm
-from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
+from tracker.plan.pedicle.length import MIN_FACED_RATIO, WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.plausibility import (
@@ -46,7 +46,6 @@ from tracker.plan.pedicle.sides import body_side, canal_side
 from tracker.plan.pedicle.solid import Solid, solid_around
 from tracker.plan.volume import Volume
 
-MIN_FACED_SD = 0.15
 # A smaller rotation of the axis does not change a section.
 TURNED_DEG = 1.0
 MAX_OFF_COURSE_DEG, MAX_TURN_DEG = 32.0, 25.0
@@ -281,6 +280,6 @@ def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus) -> float:
     (left,), (up,) = planes_across(isthmus.axis[None])
     slope_mm = np.zeros(3)
     for wall, way in ((front, -1.0), (back, 1.0)):
-        slope_mm += way * wall.distance_mm / max(abs(wall.faced_ratio), MIN_FACED_SD) * wall.outwards
+        slope_mm += way * wall.distance_mm / max(abs(wall.faced_ratio), MIN_FACED_RATIO) * wall.outwards
     of_axis = np.array([slope_mm @ left, slope_mm @ up]) * np.radians(isthmus.slope_sd_deg)
     return float(np.linalg.norm([front.sd_mm, back.sd_mm, *of_axis]))

@@ -1,5 +1,6 @@
 """The part of a CT around a click, with its noise level and the HU of soft tissue and cortex."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import cv2
@@ -86,10 +87,20 @@ class Neighbourhood:
 
     def outwards_at(self, point_lps_mm: Array) -> Array:
         """Return the direction (3,) in which HU fall around a point, averaged over a few millimetres."""
-        offsets = NORMAL_MM * np.concatenate([np.eye(3), -np.eye(3)])
-        hu = self.smooth_hu(point_lps_mm + offsets)
-        normal = hu[3:] - hu[:3]
-        return np.asarray(normal / max(float(np.linalg.norm(normal)), 1e-9))
+        return falling_direction(self.smooth_hu, point_lps_mm, NORMAL_MM)
+
+    @property
+    def slice_normal(self) -> Array:
+        """Return the unit normal (3,) of the slices."""
+        normal = np.cross(self.lps_from_index[:3, 0], self.lps_from_index[:3, 1])
+        return np.asarray(normal / np.linalg.norm(normal))
+
+
+def falling_direction(values_at: Callable[[Array], Array], point_mm: Array, reach_mm: float) -> Array:
+    """Return the unit direction (3,) in which values (n,) at points (n, 3) fall, by differences."""
+    values = values_at(point_mm + reach_mm * np.concatenate([np.eye(3), -np.eye(3)]))
+    fall = values[3:] - values[:3]
+    return np.asarray(fall / max(float(np.linalg.norm(fall)), 1e-9))
 
 
 def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:

@@ -7,7 +7,7 @@ import numpy.typing as npt
 import scipy
 
 from tracker.geometry import Array
-from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.neighbourhood import Neighbourhood, falling_direction
 
 STEP_MM = 1.25
 # Around the isthmus: to both sides, ahead and behind, to head and feet.
@@ -47,10 +47,7 @@ class Solid:
 
     def outwards_at(self, point_mm: Array) -> Array:
         """Return the outward surface normal (3,) near a point, averaged over a few millimetres."""
-        offsets = NORMAL_MM * np.concatenate([np.eye(3), -np.eye(3)])
-        depth = self.depth_at(point_mm + offsets)
-        normal = depth[3:] - depth[:3]
-        return np.asarray(normal / max(float(np.linalg.norm(normal)), 1e-9))
+        return falling_direction(self.depth_at, point_mm, NORMAL_MM)
 
 
 def _distance_mm(mask: npt.NDArray[np.bool_]) -> Array:

@@ -5,6 +5,6 @@ is separated from it only by the wall, but it lies outside the body's outline. A
 arch, whose posterior surface is where half of the bone around the axis ends.
 """
 
-from tracker.plan.pedicle.length.walls import WallAhead, back_wall, front_wall
+from tracker.plan.pedicle.length.walls import MIN_FACED_RATIO, WallAhead, back_wall, front_wall
 
-__all__ = ["WallAhead", "back_wall", "front_wall"]
+__all__ = ["MIN_FACED_RATIO", "WallAhead", "back_wall", "front_wall"]
