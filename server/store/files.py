@@ -7,7 +7,7 @@ point, the next start finds the row and removes the incomplete file, and nothing
 
 import hashlib
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -179,14 +179,19 @@ def all_files(database: CaseDatabase, session: Session, case_id: str) -> tuple[S
     Raises:
         StoreError: FILE_DAMAGED, a row does not match its checksum.
     """
-    for row in _file_rows(session, case_id)[1]:
+    intact, damaged = _file_rows(session, case_id)
+    for row in damaged:
         raise file_damaged(file_of(database, row), "its entry in the database was changed")
-    return known_files(database, session, case_id)
+    return _complete(database, intact)
 
 
 def known_files(database: CaseDatabase, session: Session, case_id: str) -> tuple[StoredFile, ...]:
     """Return the complete files of a case whose entries are intact, oldest first."""
-    files = [file_of(database, row) for row in _file_rows(session, case_id)[0] if row.state == COMPLETE]
+    return _complete(database, _file_rows(session, case_id)[0])
+
+
+def _complete(database: CaseDatabase, rows: Iterable[FileRow]) -> tuple[StoredFile, ...]:
+    files = [file_of(database, row) for row in rows if row.state == COMPLETE]
     return tuple(sorted(files, key=lambda file: (file.made_at, file.id)))
 
 
