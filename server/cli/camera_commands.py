@@ -1,16 +1,14 @@
 """The command `coaxial cameras`."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from server.cli.config_option import ConfigOption
+
 
 def cameras(
-    config: Annotated[
-        Path | None,
-        typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
-    ] = None,
+    config: ConfigOption = None,
     json: Annotated[bool, typer.Option("--json", help="Write the list as JSON.", show_default=False)] = False,
 ) -> None:
     """List the cameras of this computer, their modes, and the mode that Coaxial selects.

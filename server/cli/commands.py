@@ -14,6 +14,7 @@ from server.cli.board_commands import board_app
 from server.cli.calibration.commands import add_calibration
 from server.cli.camera_commands import cameras
 from server.cli.certify_commands import certify_app
+from server.cli.config_option import ConfigOption
 from server.cli.hub_commands import theatres
 from server.cli.latency_commands import latency_app
 from server.cli.marker_commands import marker_app
@@ -65,10 +66,6 @@ class Rate(StrEnum):
     FAST = "fast"
 
 
-ConfigOption = Annotated[
-    Path | None,
-    typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
-]
 MarkerOption = Annotated[
     list[Path] | None,
     typer.Option(

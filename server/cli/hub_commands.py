@@ -1,16 +1,14 @@
 """The command `coaxial theatres`."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from server.cli.config_option import ConfigOption
+
 
 def theatres(
-    config: Annotated[
-        Path | None,
-        typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
-    ] = None,
+    config: ConfigOption = None,
     once: Annotated[
         bool, typer.Option("--once", help="Print the list once, after 4 s.", show_default=False)
     ] = False,

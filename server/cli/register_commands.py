@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from server.cli.config_option import ConfigOption
+
 register_app = typer.Typer(
     help="Register the plan to the patient by landmarks or by a swept surface.",
     no_args_is_help=True,
@@ -26,10 +28,6 @@ MovingOption = Annotated[
         help="Tip positions on the same landmarks, in the same order or with the same names.",
         metavar="FILE",
     ),
-]
-ConfigOption = Annotated[
-    Path | None,
-    typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
 ]
 TargetOption = Annotated[
     list[str] | None,

@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from server.cli.config_option import ConfigOption
+
 
 class LengthUnit(StrEnum):
     """Unit of translations."""
@@ -27,10 +29,6 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Write the result as JS
 UnitOption = Annotated[LengthUnit, typer.Option(help="Unit of the translations.")]
 MarkerOption = Annotated[
     str | None, typer.Option(help="Name of the marker on the tool.", metavar="NAME", show_default=False)
-]
-ConfigOption = Annotated[
-    Path | None,
-    typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
 ]
 ToolOption = Annotated[
     Path | None, typer.Option("--tool", help="Tool file written by 'coaxial pivot'.", metavar="FILE")

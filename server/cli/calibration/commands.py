@@ -18,6 +18,7 @@ from server.cli.board_arguments import (
     TagOption,
 )
 from server.cli.board_names import BoardOptions
+from server.cli.config_option import ConfigOption
 
 InsetOption = Annotated[
     str | None,
@@ -60,10 +61,6 @@ RmsOption = Annotated[
         help="Largest permitted RMS; default: calibration.max_rms_px of the settings.",
         metavar="PX",
     ),
-]
-ConfigOption = Annotated[
-    Path | None,
-    typer.Option("--config", help="Settings file; default: ./config.yaml if it exists.", metavar="FILE"),
 ]
 
 
