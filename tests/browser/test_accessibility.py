@@ -238,15 +238,17 @@ def test_each_layout_of_the_theatre_in_both_themes(
 def test_the_alarms_cover_nothing_of_a_page_that_is_scrolled(
     opened: Callable[..., Page], shared_theatre: Theatre
 ) -> None:
-    width, height = LYING[0], 700
-    page = opened("/operator/navigate", (width, height))
+    page = opened("/operator/navigate", (LYING[0], 700))
     shared_theatre.tell("near")
     expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
-    page.mouse.move(width / 2, height / 2)
-    scrolled = "() => { const e = document.querySelector('.step-content'); return "
-    page.wait_for_function(f"{scrolled} e.scrollHeight > e.clientHeight; }}")
-    page.mouse.wheel(0, 5000)
-    page.wait_for_function(f"{scrolled} e.scrollTop > 0; }}")
+    # Not by the wheel: its event is lost where layout and compositor do not agree yet.
+    page.wait_for_function(
+        """() => {
+            const content = document.querySelector('.step-content');
+            content.scrollTo(0, content.scrollHeight);
+            return content.scrollTop > 0;
+        }"""
+    )
     edges = "e => e.getBoundingClientRect()"
     assert (
         page.get_by_test_id("alarms").evaluate(edges)["bottom"]
