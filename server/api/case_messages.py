@@ -236,11 +236,12 @@ def verification_message(damages: tuple[Damage, ...]) -> VerificationMessage:
 
 
 def _damage_message(damage: Damage) -> DamageMessage:
+    language = requested_language()
     return DamageMessage(
         file_id=damage.file_id,
         problem=damage.problem,
-        message=damage.message,
-        documents=list(damage.documents),
+        message=damage.why.message[language],
+        documents=[title[language] for title in damage.documents],
     )
 
 

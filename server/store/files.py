@@ -25,6 +25,7 @@ from server.store.records import Damage, StoredFile
 from server.store.tables import COMPLETE, WRITING, FileRow
 from server.store.validation import validate_suffix
 from server.store.validity import lineage_of
+from server.texts import Reason, reason
 
 UNFINISHED = "part-"
 CHUNK_BYTES = 2**20
@@ -215,7 +216,7 @@ def find_damage(database: CaseDatabase, case_id: str) -> tuple[Damage, ...]:
         known = {file.id for file in files}
         missing = {file for heading in headings for file in heading.files} - known
         problems = [
-            ("content", f"the entry of the file {file} in the database is missing or was changed", file)
+            ("content", reason("FILE_ENTRY_DAMAGED", {"file": file}), file)
             for file in sorted(missing.union(entries))
         ]
         problems += [(*problem, file.id) for file in files if (problem := _problem(file)) is not None]
@@ -224,17 +225,17 @@ def find_damage(database: CaseDatabase, case_id: str) -> tuple[Damage, ...]:
                 Damage(
                     file_id=file,
                     problem=problem,
-                    message=message,
-                    documents=tuple(heading.title for heading in headings if file in heading.files),
+                    why=why,
+                    documents=tuple(heading.title_text for heading in headings if file in heading.files),
                 )
-                for problem, message, file in problems
+                for problem, why, file in problems
             ),
             *(
                 Damage(
                     file_id=heading.id,
                     problem="document",
-                    message="a document is damaged in the database",
-                    documents=(heading.title,),
+                    why=reason("DOCUMENT_ENTRY_DAMAGED"),
+                    documents=(heading.title_text,),
                 )
                 for heading in headings
                 if heading.is_damaged
@@ -243,8 +244,8 @@ def find_damage(database: CaseDatabase, case_id: str) -> tuple[Damage, ...]:
                 Damage(
                     file_id=unknown,
                     problem="document",
-                    message="a document that others depend on is missing in the database",
-                    documents=tuple(one.title for one in headings if unknown in one.depends_on),
+                    why=reason("BASE_MISSING"),
+                    documents=tuple(one.title_text for one in headings if unknown in one.depends_on),
                 )
                 for unknown in lineage.unknown_bases
             ),
@@ -258,14 +259,16 @@ def reject_damaged(file: StoredFile) -> None:
         raise file_damaged(file, "it is missing" if problem[0] == "missing" else "its SHA-256 differs")
 
 
-def _problem(file: StoredFile) -> tuple[str, str] | None:
+def _problem(file: StoredFile) -> tuple[str, Reason] | None:
     try:
         with file.path.open("rb") as stream:
             size_bytes, sha256 = size_and_sha256(stream.fileno())
     except OSError as error:
-        return "missing", f"the file {file.id} cannot be read: {(error.strerror or str(error)).lower()}"
+        said = (error.strerror or str(error)).lower()
+        return "missing", reason("FILE_NOT_READ", {"file": file.id, "system_error": said})
     if size_bytes != file.size_bytes:
-        return "size", f"the file {file.id} has {size_bytes} bytes, but was stored with {file.size_bytes}"
+        sizes = {"size_bytes": size_bytes, "stored_bytes": file.size_bytes}
+        return "size", reason("FILE_SIZE_DIFFERS", {"file": file.id, **sizes})
     if sha256 != file.sha256:
-        return "content", f"the content of the file {file.id} differs from the stored one (SHA-256)"
+        return "content", reason("FILE_CONTENT_DIFFERS", {"file": file.id})
     return None

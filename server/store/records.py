@@ -237,11 +237,11 @@ class Damage:
     Attributes:
         file_id: the file, or the document.
         problem: "missing", "size", "content" or "document".
-        message: description with numbers.
+        why: what was found, with numbers.
         documents: titles of the documents that refer to it, or of the document itself.
     """
 
     file_id: str
     problem: str
-    message: str
-    documents: tuple[str, ...]
+    why: Reason
+    documents: tuple[Text, ...]

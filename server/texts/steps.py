@@ -269,6 +269,43 @@ REASONS: Mapping[str, Sentence] = {
             "de": "beruht auf {title}, ersetzt durch Version {version}",
         }
     ),
+    # damage of a case on the disk
+    "FILE_NOT_READ": Sentence(
+        {
+            "en": "the file {file} cannot be read: {system_error}",
+            "de": "die Datei {file} ist nicht lesbar: {system_error}",
+        }
+    ),
+    "FILE_SIZE_DIFFERS": Sentence(
+        {
+            "en": "the file {file} has {size_bytes} bytes, but was stored with {stored_bytes}",
+            "de": "die Datei {file} hat {size_bytes} Bytes, wurde aber mit {stored_bytes} gespeichert",
+        }
+    ),
+    "FILE_CONTENT_DIFFERS": Sentence(
+        {
+            "en": "the content of the file {file} differs from the stored one (SHA-256)",
+            "de": "der Inhalt der Datei {file} weicht vom gespeicherten ab (SHA-256)",
+        }
+    ),
+    "FILE_ENTRY_DAMAGED": Sentence(
+        {
+            "en": "the entry of the file {file} in the database is missing or was changed",
+            "de": "der Eintrag der Datei {file} in der Datenbank fehlt oder wurde verändert",
+        }
+    ),
+    "DOCUMENT_ENTRY_DAMAGED": Sentence(
+        {
+            "en": "a document is damaged in the database",
+            "de": "ein Dokument ist in der Datenbank beschädigt",
+        }
+    ),
+    "BASE_MISSING": Sentence(
+        {
+            "en": "a document that others depend on is missing in the database",
+            "de": "ein Dokument, von dem andere abhängen, fehlt in der Datenbank",
+        }
+    ),
 }
 CONFIRM: Mapping[str, Text] = {
     "reference": {

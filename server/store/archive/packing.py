@@ -211,7 +211,7 @@ def _missing_files(known: Iterable[StoredFile], damages: Iterable[Damage]) -> li
                 id=damage.file_id if is_id else f"{_id_from(damage.file_id)}.lost",
                 size_bytes=0 if file is None else file.size_bytes,
                 sha256="" if file is None else file.sha256,
-                problem=damage.message,
+                problem=damage.why.message["en"],
             )
         )
     return missing

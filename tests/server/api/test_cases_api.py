@@ -197,6 +197,10 @@ def test_damage_is_found_and_reported(door: TestClient, store: CaseStore) -> Non
     store.file(case_id, file_id).path.unlink()
     (damage,) = door.post(f"{path}/verification").json()["damages"]
     assert (damage["problem"], damage["documents"]) == ("missing", ["ct 'main' version 1"])
+    answer = door.post(f"{path}/verification", headers={"Accept-Language": "de"})
+    (damage,) = answer.json()["damages"]
+    assert damage["message"].startswith(f"die Datei {file_id} ist nicht lesbar: ")
+    assert damage["documents"] == ["CT „main“ Version 1"]
     for requested in ("archive", f"files/{file_id}"):
         answer = door.get(f"{path}/{requested}")
         assert (answer.status_code, answer.json()["code"]) == (503, "FILE_DAMAGED")

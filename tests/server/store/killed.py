@@ -86,7 +86,7 @@ def broken_promises(folder: Path, promised: Promised) -> Iterator[str]:
                 elif store.document(case_id, document_id).content != content:
                     yield f"document {document_id} has another content"
         for case_id in there:
-            yield from (damage.message for damage in store.verify(case_id))
+            yield from (damage.why.message["en"] for damage in store.verify(case_id))
         whole = {(case_id, file.id): file.sha256 for case_id in there for file in store.files(case_id)}
         for (case_id, file_id), sha256 in promised.files.items():
             if case_id in promised.cases and whole.get((case_id, file_id)) != sha256:

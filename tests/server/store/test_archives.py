@@ -375,9 +375,9 @@ def test_what_is_intact_is_copied_out_on_request_and_what_is_missing_stays_named
     store.set_change_listener(changes.append)
     again = store.import_archive(archive.path, by="M. Ito")
     assert [one.after for one in changes] == ["copied in, without 2 damaged documents and files"]
-    assert [(one.file_id, one.problem, one.documents) for one in store.verify(again.id)] == [
-        (lost_file.id, "missing", ("ct 'main' version 1",)),
-        (plan.id, "document", ("plan 'L3 😀' version 1",)),
+    assert [(one.file_id, one.problem, one.documents[0]["en"]) for one in store.verify(again.id)] == [
+        (lost_file.id, "missing", "ct 'main' version 1"),
+        (plan.id, "document", "plan 'L3 😀' version 1"),
     ]
     assert store.document(again.id, tool.id).content == {"mm": 1}
     assert store.file(again.id, new.stored.id).path.read_bytes() == b"intact"

@@ -218,7 +218,7 @@ def test_a_damaged_entry_of_a_file_is_reported_and_its_file_kept(home: Home, col
             store.file(case, file.id)
         assert damaged.value.code == "FILE_DAMAGED"
         (found,) = store.verify(case)
-        assert (found.file_id, found.documents) == (file.id, (ct.title,))
+        assert (found.file_id, found.documents) == (file.id, (ct.title_text,))
     assert file.path.read_bytes() == b"volume"
 
 
