@@ -45,7 +45,7 @@ def group_frames_by_series(container: Container, progress: Progress) -> dict[str
         files, excluded = len(container.entries) + _beforehand(container), container.excluded_text
         raise InvalidInput(
             "CT_NO_DICOM",
-            f"no DICOM slice among {files} files: {excluded}",
+            f"no DICOM slice in the upload (files: {files}): {excluded}",
             "Give a folder or zip of the CT's DICOM slices, or a NIfTI file.",
             {
                 **{one.reason.replace(" ", "_"): one.count for one in container.left_out},

@@ -486,8 +486,8 @@ CASES: Mapping[str, tuple[Text, ...]] = {
     ),
     "CT_NO_DICOM": (
         {
-            "en": "no DICOM slice among {files} files: {excluded_list}",
-            "de": "keine DICOM-Schicht unter {files} Dateien: {excluded_list}",
+            "en": "no DICOM slice in the upload (files: {files}): {excluded_list}",
+            "de": "keine DICOM-Schicht im Hochgeladenen (Dateien: {files}): {excluded_list}",
         },
     ),
     "CT_DOCUMENT_INVALID": (

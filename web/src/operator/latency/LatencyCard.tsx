@@ -3,6 +3,7 @@ import { useState, type ReactNode } from "react";
 import { postLatencyMeasurement } from "../../api";
 import { Rejection } from "../../rest/client";
 import { RejectionNote } from "../../rest/RejectionNote";
+import { useLive } from "../../live/LiveContext";
 import { useAction } from "../../rest/useAction";
 import { useLatency } from "../../rest/useLatency";
 import { otherImagesText } from "../../panes/latencyText";
@@ -16,6 +17,8 @@ import type { Plan, Result } from "./measure";
 export function LatencyCard(): ReactNode {
   const texts = useTexts().latency;
   const { data, refetch } = useLatency();
+  // A simulated camera sees no screen.
+  const isSimulated = useLive().view.newest?.source.name === "rehearsal";
   const beginning = useAction();
   const [plan, setPlan] = useState<Plan | null>(null);
   const [rejection, setRejection] = useState<Rejection | null>(null);
@@ -38,7 +41,7 @@ export function LatencyCard(): ReactNode {
     <Card title={texts.title} testId="latency" fresh={result?.at === madeHere ? madeHere : null}>
       <p>{texts.lead}</p>
       {result === null ? (
-        data !== null && <p className="soft">{texts.never}</p>
+        data !== null && <p className="soft">{isSimulated ? texts.simulated : texts.never}</p>
       ) : (
         <LatencyReport result={result} />
       )}
@@ -52,6 +55,7 @@ export function LatencyCard(): ReactNode {
           size="lg"
           variant="default"
           loading={beginning.busy}
+          disabled={isSimulated}
           data-testid="latency-begin"
           onClick={begin}
         >

@@ -4,6 +4,8 @@ export const latencyDe: LatencyTexts = {
   title: "Verzögerung",
   lead: "Zeit vom Licht vor der Kamera bis zur Anzeige auf dieser Seite. Etwa 20 Sekunden lang zeigt dieser Bildschirm Codes, die die Kamera aufnimmt. Das Ergebnis gilt für diese Kamera mit diesem Bildschirm.",
   never: "Mit dieser Kamera noch nicht gemessen.",
+  simulated:
+    "Die Kamera ist simuliert und sieht keinen Bildschirm: gemessen wird nur die Latenz einer echten Kamera.",
   begin: "Messen",
   beginAgain: "Erneut messen",
   aim: "Die Kamera auf diesen Bildschirm richten, bis der Code einen guten Teil ihres Bildes füllt.",

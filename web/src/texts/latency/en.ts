@@ -2,6 +2,7 @@ export const latencyEn = {
   title: "Latency",
   lead: "Time from the light in front of the camera to the display on this page. This screen shows codes for about 20 seconds, which the camera records. The result applies to this camera with this screen.",
   never: "Not measured with this camera yet.",
+  simulated: "The camera is simulated and sees no screen: only the latency of a real camera is measured.",
   begin: "Measure",
   beginAgain: "Measure again",
   aim: "Point the camera at this screen until the code fills a good part of its picture.",
