@@ -29,6 +29,7 @@ from packaging.version import Version
 
 ROOT = Path(__file__).resolve().parents[1]
 CHANGELOG, PROJECT = ROOT / "CHANGELOG.md", ROOT / "pyproject.toml"
+SAMPLES = "tests/procedure/samples"
 ALLOWED_SIGNERS = ROOT / "docs" / "allowed_signers"
 # The name in `docs/allowed_signers`, and what a signature is for, which the guide states.
 PRINCIPAL, NAMESPACE = "coaxial", "coaxial-release"
@@ -110,6 +111,13 @@ def reject_version(version: str, changelog: str) -> None:
     newest = max(filter(SEMVER.fullmatch, released), key=Version, default=None)
     if newest is not None and Version(version) <= Version(newest):
         sys.exit(f"The version {version} is not newer than {newest}, which is released.")
+    if f"v{newest}" in run("git", "tag", "--list", "v*").splitlines():
+        changed = run("git", "diff", "--name-only", "--diff-filter=a", f"v{newest}", "HEAD", "--", SAMPLES)
+        if changed:
+            sys.exit(
+                f"{changed.splitlines()[0]} is a sample of a released form and was changed: restore it from "
+                f"the tag v{newest}, and give the new form a number and a sample of its own."
+            )
 
 
 def date_of(version: str) -> str:
@@ -159,14 +167,16 @@ def build(version: str, date: str, *targets: str, is_dry: bool) -> Path:
 
 
 @contextmanager
-def undone_on_failure(*files: Path) -> Iterator[None]:
-    """Restore these files and the branch, if the release fails; other files are not touched."""
+def undone_on_failure(new: Path, *files: Path) -> Iterator[None]:
+    """Restore these files and the branch and delete the new file, if the release fails; others stay."""
     head = run("git", "rev-parse", "HEAD")
     try:
         yield
     except BaseException:
         run("git", "reset", "--quiet", "--soft", head)
-        run("git", "restore", "--staged", "--worktree", "--source", head, "--", *files)
+        run("git", "reset", "--quiet", head, "--", new, *files)
+        run("git", "restore", "--", *files)
+        new.unlink(missing_ok=True)
         raise
 
 
@@ -183,9 +193,15 @@ def release(version: str, given: Path | None, *, is_dry: bool) -> None:
     key = reject_unsigned(given)
     date, head = f"{datetime.now(UTC):%Y-%m-%d}", run("git", "rev-parse", "HEAD")
     tag, title = f"v{version}", f"Coaxial {version}"
-    with undone_on_failure(CHANGELOG, PROJECT):
+    settings = ROOT / SAMPLES / f"settings-{version}.yaml"
+    files = (settings, CHANGELOG, PROJECT)
+    with undone_on_failure(*files):
         dated = changelog.replace(UNRELEASED, f"{UNRELEASED}\n## [{version}] - {date}\n", 1)
         write(CHANGELOG, dated, is_dry=is_dry)
+        print(f"{settings.relative_to(ROOT)}: config.yaml, which later versions are tested with")
+        if not is_dry:
+            settings.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(ROOT / "config.yaml", settings)
         write(PROJECT, VERSION_LINE.sub(f'version = "{version}"', project), is_dry=is_dry)
         folder = build(version, date, "test", "wheel", "sbom", is_dry=is_dry)
         if is_dry:
@@ -194,10 +210,11 @@ def release(version: str, given: Path | None, *, is_dry: bool) -> None:
             return
         sign(folder / SUMS, key)
         # What was built must be what is tagged.
-        changed = {line[3:] for line in run("git", "status", "--porcelain").splitlines()}
-        if changed != {"CHANGELOG.md", "pyproject.toml"} or run("git", "rev-parse", "HEAD") != head:
+        status = run("git", "status", "--porcelain", "--untracked-files=all").splitlines()
+        expected = {file.relative_to(ROOT).as_posix() for file in files}
+        if {line[3:] for line in status} != expected or run("git", "rev-parse", "HEAD") != head:
             sys.exit("The tree was changed during the build: nothing was released.")
-        files = (CHANGELOG, PROJECT)
+        run("git", "add", "--", *files)
         run("git", "commit", "--quiet", "--message", f"Release {version}", "--", *files, shown=True)
         by_key = ["-c", "gpg.format=ssh", "-c", f"user.signingkey={key}"]
         run("git", *by_key, "tag", "--sign", "--message", title, tag, shown=True)

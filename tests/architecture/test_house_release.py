@@ -71,13 +71,15 @@ MADE = ("--version", "0.3.0-rc.1", "--key", "../key")
 def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A repository on main with entries under Unreleased, beside the key that it allows."""
     folder = tmp_path_factory.mktemp("release") / "checkout"
-    for inner in (".make", "docs"):
+    for inner in (".make", "docs", "tests/procedure/samples"):
         (folder / inner).mkdir(parents=True)
     shutil.copy(ROOT / ".make" / "release.py", folder / ".make")
     (folder / "Makefile").write_text(MAKEFILE)
     (folder / "CHANGELOG.md").write_text(CHANGELOG)
     (folder / "pyproject.toml").write_text('[project]\nname = "coaxial"\nversion = "0.2.0"\n')
     (folder / "requirements.lock").write_text("numpy==2.2\n")
+    (folder / "tests/procedure/samples/case-1.zip").touch()
+    (folder / "config.yaml").write_text("camera:\n")
     (folder / ".gitignore").write_text("dist\n")
     done = shell(
         "ssh-keygen -q -t ed25519 -N '' -f ../key; ssh-keygen -q -t ed25519 -N '' -f ../stranger; "
@@ -108,6 +110,7 @@ def test_a_release_is_verified_by_its_files_alone_and_no_changed_byte_passes(che
         r"## \[Unreleased\]\n\n## \[0\.3\.0-rc\.1\] - \d{4}-\d\d-\d\d\n\n### Added\n\n- A `release`\.\n\n## "
     )
     assert re.search(dated, (checkout / "CHANGELOG.md").read_text())
+    assert (checkout / "tests/procedure/samples/settings-0.3.0-rc.1.yaml").read_text() == "camera:\n"
     assert 'version = "0.3.0-rc.1"' in (checkout / "pyproject.toml").read_text()
     assert shell("git status --porcelain; git log -1 --format=%s", checkout).stdout == "Release 0.3.0-rc.1\n"
     verify_tag = "git -c gpg.ssh.allowedSignersFile=docs/allowed_signers verify-tag v0.3.0-rc.1"
@@ -148,6 +151,12 @@ def test_a_release_is_verified_by_its_files_alone_and_no_changed_byte_passes(che
             "1.0.0-rc.2 is not newer than 1.0.0",
             id="tag-is-newer",
         ),
+        pytest.param(
+            "git tag v0.2.0; echo >>tests/procedure/samples/case-1.zip; git commit -qam other",
+            MADE,
+            "case-1.zip is a sample of a released form and was changed",
+            id="changed-sample",
+        ),
         pytest.param("git switch -q -c work", MADE, "The branch is 'work'", id="not-on-main"),
         pytest.param("touch stray", MADE, "The tree is not clean (?? stray, 0 more)", id="unclean"),
         pytest.param(
@@ -171,7 +180,7 @@ def test_what_is_not_ready_is_refused_with_a_sentence_and_stays_as_it_was(
     checkout: Path, before: str, arguments: tuple[str, ...], sentence: str
 ) -> None:
     shell(before, checkout)
-    state = "git rev-parse HEAD; git tag; cat CHANGELOG.md pyproject.toml; git diff --cached"
+    state = "git rev-parse HEAD; git tag; cat *.md *.toml; git diff --cached; ls tests/procedure/samples"
     was = shell(state, checkout).stdout
     done = released(checkout, *arguments)
     assert done.returncode == 1
