@@ -2,7 +2,7 @@
 
     PYTHONPATH=. .venv/bin/python -m tests.procedure.keep_samples
 
-home-SCHEMA            a home folder: database as SQL, audit log, files of the case, and figures of a drill
+home-SCHEMA            a home folder with its database as SQL, and the figures of a drill
 case-VERSION.zip       the same case as an archive; from version 2 on without a damaged document
 recording-FORMAT.mcap  some images of a drilling
 settings-RELEASE.yaml  config.yaml of a release, kept by `make release`
@@ -15,6 +15,7 @@ import tempfile
 from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import replace
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import cv2
@@ -23,11 +24,18 @@ import numpy as np
 from server.image_file import decoded
 from server.recording_file.topics import FORMAT_VERSION
 from server.security.audit import AuditLog
+from server.security.people.file import write_people
+from server.security.people.records import Invitation, Session
+from server.security.people.service import PEOPLE_FILE
+from server.security.person import Person, Role
 from server.store import DocumentKind
 from server.store.archive.schema import COMPLETE_VERSION, VERSION
 from server.store.database import CURRENT_REVISION
+from server.store.latency_file import LatencyFile
+from server.supervision.hold_storage import HoldRequest, HoldRequestFile
 from tests.procedure.conftest import Server, serving
 from tests.procedure.patient import CAMERA_FROM_VERTEBRA, Patient, drill_at, ready
+from tests.server.cli.test_latency_command import result
 from tests.server.recording.recorded import RecordedTheatre, made_config, rendered
 from tests.server.store.test_damaged_rows import damage
 from tracker.geometry import Camera, Marker, Rigid
@@ -37,8 +45,32 @@ from tracker.plan import Channel
 
 SAMPLES = Path(__file__).parent / "samples"
 DATABASE, SQL, FIGURES = "coaxial.sqlite3", "coaxial.sql", "figures.json"
-# Folders of a home that are kept beside the database; the rest is made again.
-FOLDERS = ("security", "cases")
+# What of a home is made again.
+NOT_KEPT = (f"{DATABASE}*", "*.lock", "*reserve*", "temporary", "backups")
+PERSON = Person(id="1" * 16, name="Dr Sato", role=Role.SUPERVISOR, invited_by="M. Ito")
+AT = datetime(2026, 11, 29, 8, 0, tzinfo=UTC)
+INVITATION = Invitation(
+    id="2" * 16,
+    person=PERSON,
+    made_by="M. Ito",
+    made_at=AT,
+    expires_at=AT + timedelta(hours=1),
+    single_use=True,
+    for_machine=False,
+    session_lasts=timedelta(hours=12),
+    token_sum="3" * 64,
+    uses=1,
+)
+SESSION = Session(
+    id="4" * 16,
+    person=PERSON,
+    invitation_id=INVITATION.id,
+    started_at=AT,
+    expires_at=AT + timedelta(hours=12),
+    for_machine=False,
+    token_sum="5" * 64,
+)
+HOLD = HoldRequest(person_id=PERSON.id, name=PERSON.name, at="2026-11-29T08:00:00.000Z")
 SETTINGS = {"reference": {"marker": "reference"}}
 CAMERA_FROM_REFERENCE: Rigid[Camera, Marker] = Rigid.from_vector([3.0, 0.1, 0.2], [60.0, 20.0, 430.0])
 # 3 mm beside the axis of the channel, 5 mm below its entry.
@@ -71,14 +103,17 @@ def sql_of(database: Path) -> str:
 
 def restore(sample: Path, folder: Path) -> None:
     """Make the home folder of a sample again."""
-    for name in FOLDERS:
-        shutil.copytree(sample / name, folder / name)
+    shutil.copytree(sample, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns(SQL, FIGURES))
     with closing(sqlite3.connect(folder / DATABASE)) as raw:
         raw.executescript((sample / SQL).read_text(encoding="utf-8"))
 
 
 def made_home(folder: Path) -> Mapping[str, float]:
     """Make a home with an open case that is registered, checked and logged; return the drill's figures."""
+    LatencyFile(folder).put(result())
+    HoldRequestFile(folder).write([HOLD])
+    (folder / "security").mkdir()
+    write_people(folder / "security" / PEOPLE_FILE, [INVITATION], [SESSION])
     with serving(folder, SETTINGS) as server:
         server.store.set_change_listener(AuditLog(folder / "security").record_change)
         case_id = ready(server)
@@ -96,8 +131,7 @@ def keep_home(sample: Path) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         figures = made_home(folder)
-        for kept in FOLDERS:
-            shutil.copytree(folder / kept, sample / kept, ignore=shutil.ignore_patterns("*reserve*"))
+        shutil.copytree(folder, sample, ignore=shutil.ignore_patterns(*NOT_KEPT))
         (sample / SQL).write_text(sql_of(folder / DATABASE), encoding="utf-8")
     (sample / FIGURES).write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
 

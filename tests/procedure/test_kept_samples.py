@@ -20,15 +20,22 @@ from server.recording_file import RecordingReader, Topic
 from server.recording_file.codec import Json
 from server.recording_file.topics import FORMAT_VERSION
 from server.security.audit import AuditLog, mark_lost_changes
+from server.security.people.file import read_people
+from server.security.people.service import PEOPLE_FILE
 from server.store import CaseStore, Home
 from server.store.archive.schema import VERSION
 from server.store.database import CURRENT_REVISION, open_database
+from server.store.latency_file import LatencyFile
 from server.stream.messages import SnapshotMessage
+from server.supervision.hold_storage import HoldRequestFile
 from tests.procedure.conftest import serving
 from tests.procedure.keep_samples import (
     DATABASE,
     FIGURES,
+    HOLD,
+    INVITATION,
     SAMPLES,
+    SESSION,
     SETTINGS,
     SQL,
     figures_of,
@@ -36,6 +43,7 @@ from tests.procedure.keep_samples import (
     restore,
 )
 from tests.procedure.patient import states
+from tests.server.cli.test_latency_command import result
 
 ROOT = Path(__file__).parents[2]
 FIRST_REVISION = 3
@@ -73,6 +81,9 @@ def test_a_kept_home_opens_with_intact_documents_and_log_and_shows_the_same_figu
     restore(sample, tmp_path)
     with closing(sqlite3.connect(tmp_path / DATABASE)) as raw:
         (count,) = raw.execute("SELECT count(*) FROM documents").fetchone()
+    assert LatencyFile(tmp_path).results() == (result(),)
+    assert HoldRequestFile(tmp_path).read() == (HOLD,)
+    assert read_people(tmp_path / "security" / PEOPLE_FILE) == ([INVITATION], [SESSION])
     with serving(tmp_path, SETTINGS) as server:
         audit = AuditLog(tmp_path / "security")
         assert audit.verify().fault is None
