@@ -137,9 +137,14 @@ def write(file: Path, text: str, *, is_dry: bool) -> None:
         file.write_text(text, encoding="utf-8")
 
 
+def folder_of(version: str) -> Path:
+    """The folder with the files of a release."""
+    return ROOT / "dist" / f"release-{version}"
+
+
 def build(version: str, date: str, *targets: str, is_dry: bool) -> Path:
     """Build, and return the folder with all files of the release and their checksums."""
-    folder, number = ROOT / "dist" / f"release-{version}", Version(version)
+    folder, number = folder_of(version), Version(version)
     artefacts = {
         f"coaxial-{number}-py3-none-any.whl": ROOT / "dist" / f"coaxial-{number}-py3-none-any.whl",
         f"coaxial-{number}.tar.gz": ROOT / "dist" / f"coaxial-{number}.tar.gz",
@@ -167,16 +172,16 @@ def build(version: str, date: str, *targets: str, is_dry: bool) -> Path:
 
 
 @contextmanager
-def undone_on_failure(new: Path, *files: Path) -> Iterator[None]:
-    """Restore these files and the branch and delete the new file, if the release fails; others stay."""
-    head = run("git", "rev-parse", "HEAD")
+def undone_on_failure(folder: Path, new: Path, *files: Path) -> Iterator[None]:
+    """Restore these files and delete the folder and the new file, if the release fails; others stay."""
     try:
         yield
     except BaseException:
-        run("git", "reset", "--quiet", "--soft", head)
-        run("git", "reset", "--quiet", head, "--", new, *files)
+        run("git", "reset", "--quiet", "--", new, *files)
         run("git", "restore", "--", *files)
         new.unlink(missing_ok=True)
+        # Signed, it could be taken for a release.
+        shutil.rmtree(folder, ignore_errors=True)
         raise
 
 
@@ -195,7 +200,7 @@ def release(version: str, given: Path | None, *, is_dry: bool) -> None:
     tag, title = f"v{version}", f"Coaxial {version}"
     settings = ROOT / SAMPLES / f"settings-{version}.yaml"
     files = (settings, CHANGELOG, PROJECT)
-    with undone_on_failure(*files):
+    with undone_on_failure(folder_of(version), *files):
         dated = changelog.replace(UNRELEASED, f"{UNRELEASED}\n## [{version}] - {date}\n", 1)
         write(CHANGELOG, dated, is_dry=is_dry)
         print(f"{settings.relative_to(ROOT)}: config.yaml, which later versions are tested with")
@@ -208,16 +213,20 @@ def release(version: str, given: Path | None, *, is_dry: bool) -> None:
             print(f"$ ssh-keygen -Y sign -f {key} -n {NAMESPACE} {folder.relative_to(ROOT) / SUMS}")
             print(f"$ git commit --message 'Release {version}'\n$ git tag --sign --message '{title}' {tag}")
             return
-        sign(folder / SUMS, key)
         # What was built must be what is tagged.
         status = run("git", "status", "--porcelain", "--untracked-files=all").splitlines()
         expected = {file.relative_to(ROOT).as_posix() for file in files}
         if {line[3:] for line in status} != expected or run("git", "rev-parse", "HEAD") != head:
             sys.exit("The tree was changed during the build: nothing was released.")
+        sign(folder / SUMS, key)
         run("git", "add", "--", *files)
         run("git", "commit", "--quiet", "--message", f"Release {version}", "--", *files, shown=True)
         by_key = ["-c", "gpg.format=ssh", "-c", f"user.signingkey={key}"]
-        run("git", *by_key, "tag", "--sign", "--message", title, tag, shown=True)
+        try:
+            run("git", *by_key, "tag", "--sign", "--message", title, tag, shown=True)
+        except BaseException:
+            run("git", "reset", "--quiet", "--soft", head)
+            raise
     print(f"Publish {folder.relative_to(ROOT)}, and: git push origin main {tag}")
 
 

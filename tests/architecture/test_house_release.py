@@ -20,6 +20,7 @@ test:
 wheel:
 	@mkdir -p dist && echo wheel $$SOURCE_DATE_EPOCH >dist/coaxial-0.3.0rc1-py3-none-any.whl
 	@echo source >dist/coaxial-0.3.0rc1.tar.gz
+	@test ! -e ../commits || git commit -q --allow-empty -m theirs
 	@test ! -e ../edits || echo '# edited' >>Makefile
 sbom:
 	@echo {} >dist/coaxial.cdx.json
@@ -180,13 +181,26 @@ def test_what_is_not_ready_is_refused_with_a_sentence_and_stays_as_it_was(
     checkout: Path, before: str, arguments: tuple[str, ...], sentence: str
 ) -> None:
     shell(before, checkout)
-    state = "git rev-parse HEAD; git tag; cat *.md *.toml; git diff --cached; ls tests/procedure/samples"
+    state = (
+        "git rev-parse HEAD; git tag; cat *.md *.toml; git diff --cached; ls tests/procedure/samples dist/r*"
+    )
     was = shell(state, checkout).stdout
     done = released(checkout, *arguments)
     assert done.returncode == 1
     assert sentence in done.stderr
     assert "Traceback" not in done.stderr
     assert shell(state, checkout).stdout == was
+
+
+def test_a_commit_during_the_build_stays_and_a_tag_that_cannot_be_made_leaves_none(checkout: Path) -> None:
+    shell("touch ../commits", checkout)
+    assert "The tree was changed during the build" in released(checkout, *MADE).stderr
+    assert shell("git log -1 --format=%s; git status --porcelain", checkout).stdout == "theirs\n"
+    # Beside a tag of the name v0.3.0-rc.1/x there can be none of its folder's name.
+    shell("rm ../commits; git tag v0.3.0-rc.1/x", checkout)
+    assert "tag --sign" in released(checkout, *MADE).stderr
+    assert shell("git log -1 --format=%s; git status --porcelain", checkout).stdout == "theirs\n"
+    assert list((checkout / "dist").glob("release-*")) == []
 
 
 def test_a_dry_run_prints_everything_and_changes_nothing(checkout: Path) -> None:
