@@ -184,6 +184,10 @@ sbom: $(STAMPS)/dev $(STAMPS)/page-packages ## the software bill of materials (C
 	@$(PYTHON_IN_VENV) .make/sbom.py .venv/log/page.cdx.json dist/coaxial.cdx.json
 	@echo dist/coaxial.cdx.json
 
+.PHONY: release
+release: $(STAMPS)/dev ## test, build, sign and tag a release (VERSION=1.2.0 KEY=~/.ssh/id_ed25519, ARGS=--dry-run prints it)
+	@$(PYTHON_IN_VENV) .make/release.py --version "$(VERSION)" --key "$(KEY)" $(ARGS)
+
 .PHONY: audit
 audit: $(STAMPS)/dev ## known vulnerabilities of all locked packages, looked up at PyPI and npm
 	@sh .make/audit

@@ -5,13 +5,18 @@
 Names, versions, markers and hashes of Python packages are those of requirements.lock. Licences come from
 the metadata of the installed packages, where the locked version is installed. PAGE is the output of
 `npm sbom` without `--omit dev`, which also omits some packages that the page needs.
+
+With SOURCE_DATE_EPOCH, two runs with the same packages write the same bytes.
 """
 
 import json
+import os
 import re
 import sys
 import tomllib
+import uuid
 from collections.abc import Iterator
+from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, metadata
 from pathlib import Path
 
@@ -101,8 +106,12 @@ def bill(page: Bom) -> Bom:
         description=project["description"],
     )
     direct = {canonicalize_name(Requirement(one).name) for one in project["dependencies"]}
-    # npm takes the name of the folder for a package that is not published.
+    # npm takes the name of the folder for a package that is not published; its version is the project's.
     page.metadata.component.name = page.metadata.component.purl.name
+    page.metadata.component.version = project["version"]
+    page.metadata.component.purl = PackageURL(
+        "npm", name=page.metadata.component.name, version=project["version"]
+    )
     for one in shown:
         made.register_dependency(
             one, [other for other in shown if other.bom_ref in dependencies[one.bom_ref]]
@@ -110,6 +119,10 @@ def bill(page: Bom) -> Bom:
     made.register_dependency(
         made.metadata.component, [page.metadata.component, *(one for one in python if one.name in direct)]
     )
+    if "SOURCE_DATE_EPOCH" in os.environ:
+        made.metadata.timestamp = datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), UTC)
+        versions = " ".join(sorted(str(one.purl) for one in made.components))
+        made.serial_number = uuid.uuid5(uuid.NAMESPACE_URL, versions)
     return made
 
 

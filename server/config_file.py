@@ -4,6 +4,7 @@ import difflib
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -25,6 +26,10 @@ DEFAULT_FILE = Path("config.yaml")
 # COAXIAL__CAMERA__RATE_HZ is the key camera.rate_hz.
 ENVIRONMENT_PREFIX, ENVIRONMENT_SEPARATOR = "COAXIAL__", "__"
 Key: TypeAlias = tuple[str | int, ...]
+# What became of keys of older releases; * stands for any name. None is ever removed.
+#     "camera.speed_hz": "was renamed to 'camera.rate_hz' in 1.2.0"
+#     "tools.*.tip": "was removed in 2.0.0: give 'calibration'"
+FORMER_KEYS: Mapping[str, str] = {}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -200,9 +205,17 @@ def _mistakes_from_validation(error: ValidationError, where: _Where) -> list[Mis
     return list(mistakes.values())
 
 
+def fate_of_key(key: str) -> str | None:
+    """Return what became of a key of an older release; None if no release had it."""
+    return next((fate for former, fate in FORMER_KEYS.items() if fnmatchcase(key, former)), None)
+
+
 def _mistake(kind: str, key: Key, location: Key, given: object, where: _Where) -> Mistake:
     text = key_text(key)
-    if kind in {"extra_forbidden", "invalid_key"} or location[-1] == "[key]":
+    former = fate_of_key(text)
+    if kind == "extra_forbidden" and former is not None:
+        sentence = f"'{text}' {former}"
+    elif kind in {"extra_forbidden", "invalid_key"} or location[-1] == "[key]":
         keys = allowed_keys(key[:-1])
         near = difflib.get_close_matches(str(key[-1]), keys, n=1, cutoff=0.5)
         meant = f", did you mean '{key_text((*key[:-1], near[0]))}'?" if near else ""

@@ -71,10 +71,19 @@ ToleranceOption = Annotated[
         metavar="MM,DEG",
     ),
 ]
+
+
+def _text_transform(path: Path | None) -> Path | None:
+    if path is not None and path.suffix.lower() in {".h5", ".hdf5"}:
+        raise typer.BadParameter(f"{path} would be HDF5, which is not written; name a .tfm file.")
+    return path
+
+
 TransformOption = Annotated[
     Path | None,
     typer.Option(
         "--transform",
+        callback=_text_transform,
         help="Also write the registration as a transform of ITK (.tfm) for 3D Slicer, if its limits are met.",
         metavar="TFM",
     ),

@@ -15,6 +15,8 @@ from tracker.errors import InvalidInput
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
 
 SUFFIX = ".tfm"
+# Not supported: a library for HDF5 would be needed for these files alone.
+HDF5_SUFFIXES, HDF5_SIGNATURE = (".h5", ".hdf5"), b"\x89HDF\r\n\x1a\n"
 HEADER = "#Insight Transform File V1.0"
 MAX_BYTES = 2**16
 MAX_TRANSLATION_MM = 100_000.0
@@ -29,8 +31,8 @@ Rotation: TypeAlias = Callable[[Array, Array], Array]
 
 
 def is_itk_name(name: str) -> bool:
-    """Return whether a file of this name contains a transform of ITK."""
-    return name.lower().endswith(SUFFIX)
+    """Return whether a file of this name contains a transform of ITK: text, or HDF5, which is rejected."""
+    return name.lower().endswith((SUFFIX, *HDF5_SUFFIXES))
 
 
 def itk_text(fixed_from_moving: Rigid[Vertebra, Anchor]) -> str:
@@ -84,6 +86,8 @@ def fixed_from_moving_in_itk(content: bytes, *, name: str) -> Rigid[Vertebra, An
 
 
 def _fields(content: bytes, name: str) -> Mapping[str, str]:
+    if content.startswith(HDF5_SIGNATURE):
+        raise _unreadable(name, "it is an HDF5 file (.h5)")
     try:
         text = content.decode("utf-8-sig") if len(content) <= MAX_BYTES else ""
     except UnicodeDecodeError:

@@ -22,6 +22,7 @@ def migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migratio
     Raises:
         StoreError: STORE_SCHEMA_UNKNOWN, the database is newer than this program or older than its first
             schema.
+        DiskFull: STORE_FULL, before anything is changed.
     """
     config = Config()
     config.set_main_option("script_location", str(migrations).replace("%", "%%"))
@@ -33,6 +34,8 @@ def migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migratio
         return
     if revision is not None:
         _reject_unknown(ScriptDirectory.from_config(config), revision, home)
+        # For the backup, and for the journal, which can get every page of the database.
+        home.reject_without_space(2 * home.database.stat().st_size)
         back_up(engine, home, name=f"coaxial-{revision}-{now():%Y%m%dT%H%M%SZ}.sqlite3")
     with with_immediate_transactions(engine).begin() as connection:
         config.attributes["connection"] = connection

@@ -2,10 +2,12 @@
 
 import base64
 import json
+import os
 import re
 import subprocess
 import sys
 import tomllib
+import uuid
 from collections.abc import Iterator
 from importlib import resources
 from importlib.metadata import PackageNotFoundError, version
@@ -39,7 +41,8 @@ def bill(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     of_page = subprocess.run(NPM_SBOM, cwd=ROOT, check=True, capture_output=True, text=True)
     (folder / "page.json").write_text(of_page.stdout)
     command = [sys.executable, ".make/sbom.py", str(folder / "page.json"), str(folder / "bill.json")]
-    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    around = {**os.environ, "SOURCE_DATE_EPOCH": "1790000000"}
+    subprocess.run(command, cwd=ROOT, env=around, check=True, capture_output=True)
     made: dict[str, Any] = json.loads((folder / "bill.json").read_text(encoding="utf-8"))
     return made
 
@@ -119,6 +122,19 @@ def test_it_follows_the_schema_of_cyclonedx(bill: dict[str, Any]) -> None:
         [(SCHEMAS + name, schema) for name, schema in zip(names, schemas, strict=True)]
     )
     jsonschema_rs.validator_for(schemas[-1], registry=registry).validate(bill)
+
+
+def test_its_time_and_number_follow_from_its_sources(bill: dict[str, Any]) -> None:
+    assert bill["metadata"]["timestamp"] == "2026-09-21T14:13:20+00:00"
+    # A random number would be of version 4.
+    assert uuid.UUID(bill["serialNumber"]).version == 5
+
+
+def test_it_states_the_version_of_the_project_for_the_page_too(bill: dict[str, Any]) -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    (page,) = (one for one in bill["components"] if one["name"] == "coaxial-page")
+    assert (bill["metadata"]["component"]["version"], page["version"]) == (project["version"],) * 2
+    assert page["purl"] == f"pkg:npm/coaxial-page@{project['version']}"
 
 
 def test_it_names_no_registry_and_no_folder(bill: dict[str, Any]) -> None:

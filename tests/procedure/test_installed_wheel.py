@@ -22,6 +22,7 @@ from tests.procedure.real_server import PATIENCE_S, RealServer, port_of
 
 ROOT = Path(__file__).parents[2]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+INFO = f"coaxial-{PYPROJECT['project']['version']}.dist-info"
 # Files of an unrelated program in the folder in which Coaxial is started.
 DECOYS = ("server.py", "tracker.py", "numpy.py", "yaml.py", "numba.py")
 CODE_PLACES = """
@@ -118,7 +119,7 @@ def contents(wheel: Path) -> dict[str, bytes]:
 
 def test_it_holds_program_page_guide_and_settings_and_nothing_else(built: Built) -> None:
     members = contents(built.wheel)
-    assert {name.split("/")[0] for name in members} == {"server", "tracker", "coaxial-0.1.0.dist-info"}
+    assert {name.split("/")[0] for name in members} == {"server", "tracker", INFO}
     assert set(in_git("server", "tracker")) <= members.keys()
     of_page = {
         f"server/page/{file.relative_to(ROOT / 'web/dist').as_posix()}"
@@ -146,6 +147,8 @@ def test_it_names_no_folder_of_its_builder(built: Built) -> None:
 
 def test_the_source_archive_lacks_nothing_and_has_nothing_that_is_no_source(built: Built) -> None:
     assert contents(built.wheel_of_sdist) == contents(built.wheel)
+    # Reproducible: built in another folder at another time, and still the same bytes.
+    assert built.wheel_of_sdist.read_bytes() == built.wheel.read_bytes()
     with tarfile.open(built.sdist) as archive:
         members = {name.split("/", 1)[1] for name in archive.getnames()}
     made = {name for name in members if name.startswith(("web/dist/", "docs/site/"))}
@@ -155,7 +158,7 @@ def test_the_source_archive_lacks_nothing_and_has_nothing_that_is_no_source(buil
 def test_its_metadata_are_those_of_the_project(built: Built) -> None:
     project = PYPROJECT["project"]
     members = contents(built.wheel)
-    metadata = email.message_from_bytes(members["coaxial-0.1.0.dist-info/METADATA"])
+    metadata = email.message_from_bytes(members[f"{INFO}/METADATA"])
     required = [re.sub(r"[\s'\"]", "", one) for one in metadata.get_all("Requires-Dist", [])]
     needed = {one.split(">")[0].split("=")[0] for one in project["dependencies"]}
     assert {re.split(r"[<>=;]", one)[0] for one in required if "extra==" not in one} == {
@@ -164,7 +167,7 @@ def test_its_metadata_are_those_of_the_project(built: Built) -> None:
     assert set(metadata.get_all("Provides-Extra", [])) == set(project["optional-dependencies"])
     assert metadata["License-Expression"] == "Apache-2.0"
     assert "not a medical device" in metadata["Summary"]
-    assert b"coaxial = server.__main__:main" in members["coaxial-0.1.0.dist-info/entry_points.txt"]
+    assert b"coaxial = server.__main__:main" in members[f"{INFO}/entry_points.txt"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

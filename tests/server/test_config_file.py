@@ -149,6 +149,31 @@ def test_a_mistake_is_reported_with_file_key_value_and_what_is_allowed(
         assert word in error.message
 
 
+def test_a_key_of_an_older_release_is_refused_with_its_successor(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    former = {
+        "camera.speed_hz": "was renamed to 'camera.rate_hz' in 1.2.0",
+        "tools.*.tip": "was removed in 2.0.0: give 'calibration'",
+        "overlay": "was renamed to 'video' in 1.3.0",
+    }
+    monkeypatch.setattr("server.config_file.FORMER_KEYS", former)
+    old = {
+        "camera": {"speed_hz": 20},
+        "tools": {"drill.1": {}, "awl": {**TOOL, "tip": 1}},
+        "overlay": {"a": 1},
+    }
+    message = rejected(tmp_path, old).message
+    for sentence in (
+        "'camera.speed_hz' was renamed to 'camera.rate_hz' in 1.2.0",
+        "'tools.awl.tip' was removed in 2.0.0: give 'calibration'",
+        "'overlay' was renamed to 'video' in 1.3.0",
+    ):
+        assert sentence in message
+    with pytest.raises(ConfigError, match=r"^COAXIAL__CAMERA__SPEED_HZ: 'camera\.speed_hz' was renamed to"):
+        load_config(settings(tmp_path, {}), environment={"COAXIAL__CAMERA__SPEED_HZ": "20"})
+
+
 def test_all_mistakes_are_reported_at_once(tmp_path: Path) -> None:
     error = rejected(tmp_path, {"server": {"port": -1, "hots": ""}, "video": {"jpeg_quality": 101}})
     mistakes = error.context["mistakes"]

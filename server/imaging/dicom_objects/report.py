@@ -108,6 +108,8 @@ class _GroupBuilder:
                 value=float(getattr(used, key)),
                 unit=unit,
                 derivation=CORRECTED if key in record.corrected else None,
+                # What a person has entered has no known uncertainty.
+                properties=None if key in record.corrected else _uncertainty(getattr(used.sd, key), unit),
                 referenced_coordinates=[_line(self._source, used.entry_lps_mm, used.front_lps_mm)]
                 if key == "length_mm"
                 else None,
@@ -187,6 +189,32 @@ class _GroupBuilder:
                 )
             ],
         )
+
+
+def _uncertainty(sd: float, unit: Code) -> sr.MeasurementProperties:
+    """Return the uncertainty of a measurement (TID 310, CID 225), which is stated to be a standard deviation.
+
+    It is a property of the measurement: a reader that does not know it shows the measurement alone. A
+    measurement of its own, derived as standard deviation, could be taken for the value.
+    """
+    item = sr.NumContentItem(
+        name=codes.SCT.RangeOfMeasurementUncertainty,
+        value=sd,
+        unit=unit,
+        relationship_type=sr.RelationshipTypeValues.HAS_PROPERTIES,
+    )
+    item.ContentSequence = sr.ContentSequence(
+        [
+            sr.CodeContentItem(
+                name=codes.DCM.Derivation,
+                value=codes.SCT.StandardDeviation,
+                relationship_type=sr.RelationshipTypeValues.HAS_CONCEPT_MOD,
+            )
+        ]
+    )
+    properties = sr.MeasurementProperties()
+    properties.append(item)
+    return properties
 
 
 def _line(source: SourceSeries, start_mm: Array, end_mm: Array) -> sr.CoordinatesForMeasurement3D:

@@ -118,3 +118,16 @@ def test_what_is_no_plan_or_has_another_name_is_rejected(tmp_path: Path) -> None
         empty.write_text(content, encoding="utf-8")
         assert in_plan(empty, output) == (2, "PLAN_FILE_INVALID"), content
     assert not output.exists()
+
+
+def test_hdf5_is_neither_written_nor_read_and_named_as_the_reason(tmp_path: Path) -> None:
+    points = written(tmp_path / "p.csv", VERTEBRA)
+    out = tmp_path / "out.h5"
+    assert typed("points", "--fixed", points, "--moving", points, "--transform", out) == (2, "")
+    assert not out.exists()
+    start, mesh = tmp_path / "start.h5", tmp_path / "bone.ply"
+    sitk.WriteTransform(sitk.Euler3DTransform(), str(start))
+    mesh.write_bytes(b"unread")
+    status, text = typed("surface", "--surface", mesh, "--points", points, "--start", start)
+    assert status == 2
+    assert "it is an HDF5 file (.h5)" in text

@@ -17,6 +17,7 @@ from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import NameOID
 from pydicom.dataset import Dataset
+from pydicom.uid import EnhancedCTImageStorage
 
 from server.imaging.ct_reader import read_ct
 from server.imaging.dicom_network.inbox import Inbox, InboxLimits, ReceivedUnknown
@@ -24,7 +25,7 @@ from server.imaging.dicom_network.receiver_settings import ReceiverSettings
 from server.security.tls.self_signed import load_or_create
 from tests.dicom_tools import closed_sockets, orthanc_in  # noqa: F401  a fixture
 from tests.server.dicom_receiver.sending import LIMITS, SETTINGS, Door, associated, door, sent, until
-from tests.server.imaging.made_ct import NAME, file_of, made_ct
+from tests.server.imaging.made_ct import NAME, enhanced_of, file_of, made_ct
 from tests.server.imaging.made_study import made_study
 from tracker.errors import InvalidInput
 
@@ -51,6 +52,38 @@ def test_a_series_waits_and_is_read_to_the_voxel(tmp_path: Path) -> None:
         assert opened.waiting() == ()
         assert opened.codes == []
     assert np.array_equal(read_ct(tmp_path / "taken").volume.hu, made.hu)
+
+
+LEGACY_CONVERTED = "1.2.840.10008.5.1.4.1.1.2.2"
+
+
+@pytest.mark.parametrize("sop_class", [EnhancedCTImageStorage, LEGACY_CONVERTED])
+def test_a_multi_frame_ct_waits_and_is_read_to_the_voxel(tmp_path: Path, sop_class: str) -> None:
+    made = made_ct()
+    whole = enhanced_of(made)
+    whole.SOPClassUID = sop_class
+    with door(tmp_path / "inbox") as opened:
+        association = associated(opened.port, classes=[sop_class])
+        assert sent(association, [whole]) == [SUCCESS]
+        association.release()
+        one = opened.described()
+        assert one.description is not None
+        assert (one.files, one.description.images, one.description.modality) == (1, 5, "CT")
+        opened.inbox.link_into(one.id, tmp_path / "taken")
+        assert opened.codes == []
+    assert np.array_equal(read_ct(tmp_path / "taken").volume.hu, made.hu)
+
+
+def test_a_multi_frame_ct_without_positions_waits_with_its_reason(tmp_path: Path) -> None:
+    whole = enhanced_of(made_ct())
+    del whole.PerFrameFunctionalGroupsSequence
+    with door(tmp_path) as opened:
+        association = associated(opened.port, classes=[EnhancedCTImageStorage])
+        assert sent(association, [whole]) == [SUCCESS]
+        association.release()
+        problem = opened.described().problem
+    assert problem is not None
+    assert "multi-frame files without positions of their images" in problem.message
 
 
 def test_it_answers_an_echo(tmp_path: Path) -> None:

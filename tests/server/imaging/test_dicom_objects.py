@@ -232,16 +232,34 @@ def codes_of(found: Iterable[Dataset]) -> set[str]:
     return {one.ConceptCodeSequence[0].CodeValue for one in found if "ConceptCodeSequence" in one}
 
 
+def code_of(item: Dataset) -> str:
+    return str(item.ConceptNameCodeSequence[0].CodeValue)
+
+
+def measurements(group: Dataset) -> dict[str, Dataset]:
+    """The measurements of a group by their code."""
+    return {code_of(item): item for item in group.ContentSequence if item.ValueType == "NUM"}
+
+
+def number(item: Dataset) -> tuple[float, str]:
+    """Value and unit of a measurement."""
+    (measured,) = item.MeasuredValueSequence
+    return float(measured.NumericValue), measured.MeasurementUnitsCodeSequence[0].CodeValue
+
+
 def numbers(group: Dataset) -> dict[str, tuple[float, str]]:
     """Value and unit by the code of the measurement."""
-    return {
-        item.ConceptNameCodeSequence[0].CodeValue: (
-            float(item.MeasuredValueSequence[0].NumericValue),
-            item.MeasuredValueSequence[0].MeasurementUnitsCodeSequence[0].CodeValue,
-        )
-        for item in group.ContentSequence
-        if item.ValueType == "NUM"
-    }
+    return {code: number(item) for code, item in measurements(group).items()}
+
+
+def uncertainty_of(measurement: Dataset) -> tuple[float, str, str] | None:
+    """Value, unit and kind of the range of uncertainty of a measurement; None if it states none."""
+    for one in measurement.get("ContentSequence") or []:
+        if code_of(one) == "371884006" and one.RelationshipType == "HAS PROPERTIES":
+            (kind,) = one.ContentSequence
+            assert (code_of(kind), kind.RelationshipType) == ("121401", "HAS CONCEPT MOD")
+            return *number(one), str(kind.ConceptCodeSequence[0].CodeValue)
+    return None
 
 
 def test_the_report_states_what_the_plan_states(tmp_path: Path) -> None:
@@ -258,6 +276,15 @@ def test_the_report_states_what_the_plan_states(tmp_path: Path) -> None:
     }
     (width,) = [one for one in items(of_pedicle) if "corrected" in codes_of(one.get("ContentSequence") or [])]
     assert width.ConceptNameCodeSequence[0].CodeValue == "103355008"
+    # Each value of the CT has its standard deviation, in its unit; that of a person has none.
+    sd = document().vertebrae[0].pedicles[0].measured.sd
+    assert {code: uncertainty_of(item) for code, item in measurements(of_pedicle).items()} == {
+        "103355008": None,
+        "121207": (sd.height_mm, "mm", "386136009"),
+        "410668003": (sd.length_mm, "mm", "386136009"),
+        "transverse": (sd.transverse_deg, "deg", "386136009"),
+        "sagittal": (sd.sagittal_deg, "deg", "386136009"),
+    }
     (screw,) = document().vertebrae[0].channels[0].screws
     assert numbers(group_of(report, "L3 left screw")) == {
         "81827009": (5.0, "mm"),
@@ -375,4 +402,6 @@ def test_dcmtk_reads_all_of_them_without_a_complaint(tmp_path: Path) -> None:
     )
     assert not shown.stderr
     assert b'"Width")="7.5" (mm,UCUM,"mm")' in shown.stdout
+    assert b'"+/-, range of measurement uncertainty")="' in shown.stdout
+    assert b'"Derivation")=(386136009,SCT,"Standard Deviation")' in shown.stdout
     assert b'"Grade of breach by Gertzbein and Robbins")=(grade-A,99COAXIAL,"Grade A")' in shown.stdout

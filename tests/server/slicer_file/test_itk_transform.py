@@ -86,11 +86,17 @@ def composite(tmp_path: Path) -> bytes:
     return file.read_bytes()
 
 
+def hdf5(tmp_path: Path) -> bytes:
+    file = tmp_path / "c.h5"
+    sitk.WriteTransform(of_a_versor(), str(file))
+    return file.read_bytes()
+
+
 @pytest.mark.parametrize(
     ("content", "code", "said"),
     [
         pytest.param(composite, "TRANSFORM_UNREADABLE", "3 transforms, expected 1", id="composite"),
-        pytest.param(b"\x89HDF\r\n\x1a\n", "TRANSFORM_UNREADABLE", "first line", id="hdf5"),
+        pytest.param(hdf5, "TRANSFORM_UNREADABLE", "HDF5 file (.h5)", id="hdf5"),
         pytest.param(b"", "TRANSFORM_UNREADABLE", "first line", id="empty"),
         pytest.param(
             AFFINE.replace("Affine", "BSpline"), "TRANSFORM_UNREADABLE", "BSplineTransform", id="spline"

@@ -147,6 +147,18 @@ def test_an_older_database_is_kept_before_it_is_changed_and_a_newer_one_rejected
         assert newer.value.code == "STORE_SCHEMA_UNKNOWN"
 
 
+def test_a_disk_too_full_for_a_migration_is_reported_before_anything_is_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    migrations = with_a_fourth_form(tmp_path / "m", "op.execute('ALTER TABLE cases ADD COLUMN more TEXT')")
+    with Home(tmp_path / "h") as home:
+        CaseStore(home).dispose()
+        asked = []
+        monkeypatch.setattr(home, "reject_without_space", asked.append)
+        open_database(home, now=utc_now, migrations=migrations).dispose()
+        assert asked == [2 * next(home.backups.iterdir()).stat().st_size]
+
+
 def test_a_migration_that_fails_changes_nothing(tmp_path: Path) -> None:
     migrations = with_a_fourth_form(
         tmp_path / "m",

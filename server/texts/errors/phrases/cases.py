@@ -673,6 +673,10 @@ CASES: Mapping[str, tuple[Text, ...]] = {
             "de": "ihre erste Zeile ist nicht „{header}“",
         },
         {
+            "en": "it is an HDF5 file (.h5)",
+            "de": "sie ist eine HDF5-Datei (.h5)",
+        },
+        {
             "en": "its last line has no line end, as in a truncated file",
             "de": "ihre letzte Zeile hat kein Zeilenende, wie in einer abgeschnittenen Datei",
         },
