@@ -13,4 +13,4 @@ TEXTS = Path(__file__).resolve().parents[2] / "web" / "src" / "texts" / "audit"
 def test_each_audited_route_has_a_text(language: str) -> None:
     texts = (TEXTS / f"{language}.ts").read_text(encoding="utf-8")
     missing = [rule.name for rule in ACCESS_RULES if rule.is_audited and f'"{rule.name}":' not in texts]
-    assert missing == []
+    assert missing == [], f"say in web/src/texts/audit/{language}.ts what somebody did by these requests"

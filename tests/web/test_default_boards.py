@@ -19,9 +19,9 @@ def test_the_page_proposes_the_board_of_the_rehearsal(kind: BoardKind) -> None:
     for name, value in lengths.items():
         if isinstance(value, int | float):
             assert f"{name}: {value:g}" in proposed, f"web/src/operator/camera/board.ts: {name} of {kind}"
+    side_mm = next(value for name, value in lengths.items() if name.endswith("_mm"))
     for language in ("en", "de"):
         texts = (SOURCES / f"texts/case/{language}.ts").read_text()
         line = next(line for line in texts.splitlines() if line.strip().startswith(f"{kind}: "))
-        assert f"{board.columns} × {board.rows}, " in line, (
-            f"web/src/texts/case/{language}.ts: size of {kind}"
-        )
+        size = f"{board.columns} × {board.rows}, {side_mm:g} mm"
+        assert size in line, f"write {size} for {kind} into web/src/texts/case/{language}.ts"

@@ -32,7 +32,8 @@ def text_of(schema: dict[str, Any]) -> str:
 def test_page_is_built_from_the_schema_that_the_server_has(tmp_path: Path) -> None:
     written = json.loads(OPENAPI_FILE.read_text(encoding="utf-8"))
     assert written == schema_of_server(tmp_path), (
-        "web/openapi.json is not what the server says; write it anew as the top of this file tells"
+        "web/openapi.json is not the server's schema. After a wanted change of its messages or limits: "
+        "PYTHONPATH=. python tests/web/test_schema_is_current.py"
     )
 
 

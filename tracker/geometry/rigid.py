@@ -115,8 +115,9 @@ def point_covariance_mm2(
 ) -> Array:
     """Return the covariance (3, 3) in mm^2, in `To`, of a point (3,) fixed in `From`.
 
-    `pose_covariance` is (6, 6) [mm, rad], translation first, then the rotation as a small rotation vector
-    multiplied from the left in `To`. First order: valid for small angles (under about 5 degrees).
+    `pose_covariance` is (6, 6) [mm, rad], of an error of the translation t, then of the rotation R as a small
+    rotation vector w multiplied from the left in `To`: the point p moves by dt + w x (R p). The arm begins at
+    the origin of `From`, not of `To`. First order: valid for small angles (under about 5 degrees).
     """
     arm = transform.rotate_directions(point_mm)
     jacobian = np.hstack([np.eye(3), -skew(arm)])

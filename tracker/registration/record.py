@@ -42,8 +42,10 @@ class Registration:
         method: registration method.
         anchored_to: camera or reference.
         anchor_from_vertebra: from the plan's frame (LPS, mm) to that of the anchor.
-        covariance: (6, 6) [mm, rad] of `anchor_from_vertebra`: translation first, then a small rotation
-            vector multiplied from the left. Symmetric.
+        covariance: (6, 6) [mm, rad] of `anchor_from_vertebra`, as in `point_covariance_mm2`: translation
+            first, then a small rotation about the origin of the vertebra frame (that of the CT), on the axes
+            of the anchor. Symmetric. About the anchor's origin instead, the stated error is wrong by the
+            lever between both.
         tip_jacobian: (6, 3), derivative of `anchor_from_vertebra` with respect to the calibrated tip
             position; if the same tool registers and drills, much of that error cancels. 0 if no tip was used.
         tool: the tool with that tip; empty if none.

@@ -56,7 +56,7 @@ def given_phrases() -> Iterator[tuple[str, str, str]]:
     """
     for path, tree in modules().items():
         text = path.read_text()
-        if not any(f'"{name}"' in text for name in PHRASES):
+        if "BoardNotFound(" not in text and not any(f'"{name}"' in text for name in PHRASES):
             continue
         functions = [node for node in ast.walk(tree) if isinstance(node, Function)]
         for function in functions:
@@ -71,6 +71,9 @@ def _contexts(function: Function) -> Iterator[tuple[str, ast.expr]]:
             for key, value in zip(node.keys, node.values, strict=True):
                 if isinstance(key, ast.Constant) and key.value in PHRASES:
                     yield str(key.value), value
+        elif isinstance(node, ast.Call) and _is_call_of("BoardNotFound", node):
+            # Steps give it as `board_problem`.
+            yield from (("board_problem", one.value) for one in node.keywords if one.arg == "sentence")
 
 
 def _traced(

@@ -75,11 +75,19 @@ def test_each_error_that_a_page_can_show_has_german() -> None:
     remedies = {shape_of(text["en"]) for text in REMEDIES}
     sites = error_sites()
     assert len({one.code for one in sites}) > 400, "the test finds no errors"
-    assert not [
-        (one.where, one.code)
+    lacking = [
+        (one.where, one.code, part)
         for one in sites
-        if one.message not in messages.get(one.code, ()) or (one.remedy and one.remedy not in remedies)
+        for part, is_listed in (
+            ("message", one.message in messages.get(one.code, ())),
+            ("remedy", not one.remedy or one.remedy in remedies),
+        )
+        if not is_listed
     ]
+    assert not lacking, (
+        "write the message by its code into a module of server/texts/errors, and the remedy into the module "
+        f"of the same name in server/texts/errors/remedies, in English as raised and in German: {lacking}"
+    )
 
 
 def test_each_translation_is_of_a_message_that_is_raised() -> None:
@@ -93,7 +101,7 @@ def test_each_translation_is_of_a_message_that_is_raised() -> None:
         for text in texts
         if text["en"] not in steps and shape_of(text["en"]) not in raised.get(code, ())
     ]
-    assert not stale
+    assert not stale, f"reword or delete in server/texts/errors, as nothing raises this any more: {stale}"
 
 
 def test_each_error_with_a_translation_gives_the_values_of_its_template() -> None:
@@ -108,13 +116,16 @@ def test_each_error_with_a_translation_gives_the_values_of_its_template() -> Non
             for texts in (message, remedy)
             if texts and not any(names_of(text) <= one.names for text in texts)
         ]
-    assert not lacking
+    assert not lacking, f"the context of the error lacks a value that its template names: {lacking}"
 
 
 def test_each_phrase_that_is_given_has_a_template() -> None:
     given = list(given_phrases())
     assert len({name for _, name, _ in given}) > 20, "the test finds no phrases"
-    assert not [one for one in given if one[2] and one[2] not in listed_shapes(one[1])]
+    lacking = [one for one in given if one[2] and one[2] not in listed_shapes(one[1])]
+    assert not lacking, (
+        f"write each phrase under its name into a module of server/texts/errors/phrases: {lacking}"
+    )
 
 
 def test_each_template_of_a_phrase_is_used() -> None:

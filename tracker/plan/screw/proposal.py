@@ -6,13 +6,13 @@ from tracker.errors import PlanError
 from tracker.plan.channel import Channel
 from tracker.plan.pedicle import PedicleMeasure
 from tracker.plan.screw.catalogue import ScrewCatalogue
+from tracker.plan.screw.channel import FRONT_MARGIN_MM
 from tracker.plan.screw.clearance import Clearance, clearance_of
 from tracker.plan.screw.density import BoneAlong, bone_along
 from tracker.plan.screw.tolerance import Tolerance, tolerance_of
 from tracker.plan.volume import Volume
 
 WALL_MARGIN_MM = 0.5
-FRONT_MARGIN_MM = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
