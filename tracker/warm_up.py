@@ -21,7 +21,7 @@ from tracker.pipeline import Tracker
 from tracker.pipeline.image import WarmUpImage, warm_up_image
 from tracker.plan import Channel, Surface
 from tracker.plan.pedicle import tube_model
-from tracker.plan.pedicle.wall_kernels import walls_around
+from tracker.plan.pedicle.wall_kernels import smooth_curves, walls_around
 from tracker.rehearsal.layer_kernels import Axis, Portrait, composite, draw_body
 
 # Start of the occluded corner, from the marker's centre to its top right corner, in sides.
@@ -73,7 +73,9 @@ def _search(model: MarkerModel, picture: WarmUpImage, camera: CameraModel) -> No
 def _outline() -> None:
     """Compute the outline of a section through a block without bone."""
     block = np.zeros((2, 2, 2), np.float32)
-    walls_around(block, np.zeros((1, 3)), np.ones((1, 1, 3)), 2, 1.0, 1, np.empty((1, 1)))
+    radius = np.empty((1, 1))
+    walls_around(block, np.zeros((1, 3)), np.ones((1, 1, 3)), 2, 1.0, 1, radius)
+    smooth_curves(radius, np.ones((1, 1)), np.ones(1), 1, 1.0, np.empty((1, 1)), np.empty((1, 1), np.bool_))
 
 
 def _pedicle() -> None:

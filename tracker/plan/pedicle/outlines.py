@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from tracker.geometry import Array
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
-from tracker.plan.pedicle.wall_kernels import walls_around
+from tracker.plan.pedicle.wall_kernels import smooth_curves, walls_around
 
 STEP_MM = 0.4
 MAX_DISTANCE_MM = 17.0
@@ -139,35 +139,18 @@ def _widest_gap_deg(near_curve: npt.NDArray[np.bool_]) -> Array:
 
 def _smooth_curve(radius: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
     """Return the robust Fourier fit (m, rays) of the radius, and its inlier rays (m, rays)."""
-    rays = radius.shape[1]
-    basis, squares = _basis(rays)
-    met = np.isfinite(radius)
-    filled = np.where(met, radius, 0.0)
-    # Start from the lower half of the radii: leaks only increase a radius, so it is the robust start.
-    usual = np.nanmedian(np.where(met, radius, MAX_DISTANCE_MM), axis=1, keepdims=True)
-    weight = np.where(met & (radius < 1.9 * usual), 1.0, 0.0)
-    ridge = np.diag([1e-6, *[0.02 * rays * (1 + n // 2) ** 2 / 40.0 for n in range(2 * HARMONICS)]])
-    smooth = np.repeat(usual, rays, axis=1)
-    for _ in range(ROUNDS):
-        normal = (weight @ squares).reshape(-1, *ridge.shape) + ridge
-        right = (weight * filled) @ basis
-        smooth = np.linalg.solve(normal, right[..., None])[..., 0] @ basis.T
-        off = np.abs(filled - smooth)
-        limit = 0.35 + 0.12 * usual
-        weight = np.where(met, np.clip(1.0 - (off / (3.0 * limit)) ** 2, 0.0, 1.0) ** 2, 0.0)
-    smooth = np.clip(smooth, 0.3, MAX_DISTANCE_MM)
-    return smooth, met & (np.abs(filled - smooth) < 0.8 + 0.15 * usual)
+    basis, ridge = _basis(radius.shape[1])
+    smooth, near_curve = np.empty_like(radius), np.empty(radius.shape, dtype=np.bool_)
+    smooth_curves(radius, basis, ridge, ROUNDS, MAX_DISTANCE_MM, smooth, near_curve)
+    return smooth, near_curve
 
 
 @functools.cache
 def _basis(rays: int) -> tuple[Array, Array]:
-    """Return the Fourier basis at the rays (rays, waves), and all products (rays, waves squared)."""
+    """Return the Fourier basis at the rays (rays, waves), and the ridge of each wave (waves,)."""
     angle = angles(rays)
-    columns = [np.ones(rays)]
+    columns, ridge = [np.ones(rays)], [1e-6]
     for n in range(1, HARMONICS + 1):
         columns += [np.cos(n * angle), np.sin(n * angle)]
-    basis = np.stack(columns, axis=1)
-    squares = (basis[:, :, None] * basis[:, None, :]).reshape(rays, -1)
-    for array in (basis, squares):
-        array.setflags(write=False)
-    return basis, squares
+        ridge += 2 * [0.02 * rays * n**2 / 40.0]
+    return np.ascontiguousarray(np.stack(columns, axis=1)), np.array(ridge)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
+from tracker.geometry.geometry_kernels import median, solve_positive
 
 
 @compiled
@@ -62,3 +63,47 @@ def walls_around(block, centres, steps, count, min_fall, behind, out):
     for m in range(steps.shape[0]):
         for ray in range(steps.shape[1]):
             out[m, ray] = steps_to_wall(block, centres[m], steps[m, ray], count, min_fall, behind, profile)
+
+
+@compiled
+def smooth_curves(radius, basis, ridge, rounds, max_distance, smooth, near_curve):
+    """Write the robust Fourier fit of radii (m, rays) and which rays are near it; NaN is no wall.
+
+    `basis` (rays, waves) are the waves at the rays, `ridge` (waves,) what keeps each of them small.
+    """
+    rays, waves = basis.shape
+    ordered, weight = np.empty(rays), np.empty(rays)
+    normal, right, amplitude = np.empty((waves, waves)), np.empty(waves), np.empty(waves)
+    for m in range(len(radius)):
+        for ray in range(rays):
+            ordered[ray] = max_distance if np.isnan(radius[m, ray]) else radius[m, ray]
+        usual = median(ordered, rays)
+        # Start from the lower half of the radii: leaks only increase a radius, so it is the robust start.
+        for ray in range(rays):
+            weight[ray] = 1.0 if radius[m, ray] < 1.9 * usual else 0.0
+        limit = 3.0 * (0.35 + 0.12 * usual)
+        for _ in range(rounds):
+            for i in range(waves):
+                right[i] = 0.0
+                for j in range(i, waves):
+                    normal[i, j] = 0.0
+                normal[i, i] = ridge[i]
+            for ray in range(rays):
+                if weight[ray] == 0.0:
+                    continue
+                for i in range(waves):
+                    weighted = weight[ray] * basis[ray, i]
+                    right[i] += weighted * radius[m, ray]
+                    for j in range(i, waves):
+                        normal[i, j] += weighted * basis[ray, j]
+            solve_positive(normal, right, amplitude)
+            for ray in range(rays):
+                value = 0.0
+                for i in range(waves):
+                    value += basis[ray, i] * amplitude[i]
+                smooth[m, ray] = value
+                rest = 1.0 - ((radius[m, ray] - value) / limit) ** 2
+                weight[ray] = rest * rest if rest > 0.0 else 0.0
+        for ray in range(rays):
+            smooth[m, ray] = min(max(smooth[m, ray], 0.3), max_distance)
+            near_curve[m, ray] = abs(radius[m, ray] - smooth[m, ray]) < 0.8 + 0.15 * usual
