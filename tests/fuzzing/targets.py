@@ -43,7 +43,7 @@ from server.imaging.meshes import mesh_from_bytes
 from server.imaging.nifti import nifti_bytes
 from server.marker_file import marker_image
 from server.openigtlink.requests import RequestReader
-from server.openigtlink.wire import (
+from server.openigtlink_wire import (
     Message,
     Point,
     Status,
