@@ -12,6 +12,7 @@ from server.capture.shot import Shot
 from server.config import Config
 from server.loop.tracking import Tracking
 from server.overlay import draw_overlay
+from server.procedure.registration.landmark_capture import tip_of
 from server.setup import CaseSetup, build_setup
 from server.stream.snapshot_messages import snapshot_message
 from tracker.geometry import Array, Rigid
@@ -19,6 +20,7 @@ from tracker.navigation import Absent, Deviation, NavigationSnapshot, ToolPose
 from tracker.plan import Channel
 from tracker.pose import Seen
 from tracker.registration import AnchoredTo, Method, Registration
+from tracker.registration.capture import TipSample
 
 DRILL, PATIENT = "DrillToTracker", "PatientToTracker"
 LEVER_MM = 150.0
@@ -150,6 +152,15 @@ def test_a_patient_that_moves_for_the_tracker_stops_navigation_until_a_check() -
     deviation = snapshot.deviations["drill"]
     assert isinstance(deviation, Absent)
     assert deviation.reason == "REFERENCE_MOVED"
+
+
+def test_a_landmark_is_captured_in_the_frame_of_the_body_on_the_patient() -> None:
+    moved = matrix((0.0, 35.0, 0.0), (400.0, 0.0, 50.0))
+    for one in (None, moved):
+        tip = tip_of(Navigation().take(poses(depth_mm=12.0, beside_mm=2.0, moved=one)), "drill", PATIENT)
+        assert isinstance(tip, TipSample)
+        expected = PATIENT_FROM_CT @ [12.0, 8.0, 30.0, 1.0]
+        np.testing.assert_allclose(tip.tip_in_anchor_mm, expected[:3], atol=1e-9)
 
 
 def test_a_tool_of_a_printed_marker_is_not_used() -> None:
