@@ -43,11 +43,16 @@ def _node(key: tuple[str | int, ...]) -> dict[str, Any]:
         if isinstance(part, int):
             node = _resolved(node.get("items", {}))
         elif part in node.get("properties", {}):
-            node = _resolved(node["properties"][part])
+            node = _section(_resolved(node["properties"][part]))
         else:
             patterns = list(node.get("patternProperties", {}).values())
             node = _resolved(patterns[0] if patterns else node.get("additionalProperties") or {})
     return node
+
+
+def _section(node: dict[str, Any]) -> dict[str, Any]:
+    """Return the section of a key that may be null; any other node unchanged."""
+    return next((_resolved(one) for one in node.get("anyOf", ()) if "$ref" in one), node)
 
 
 def _resolved(node: dict[str, Any]) -> dict[str, Any]:

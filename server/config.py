@@ -65,8 +65,8 @@ class CameraConfig(Section):
 
     name: Name = "main"
     source: Annotated[int, Field(ge=0, le=99)] | Annotated[str, StringConstraints(min_length=1)] = "rehearsal"
-    """rehearsal, phone, number or path of a local camera, basler:SERIAL, genicam:SERIAL, a video file, a
-    stream URL, a folder of images, or plugin:NAME:ADDRESS."""
+    """rehearsal, openigtlink (an external tracker), phone, number or path of a local camera, basler:SERIAL,
+    genicam:SERIAL, a video file, a stream URL, a folder of images, or plugin:NAME:ADDRESS."""
     calibration: FilePath | None = None
     """Camera file (YAML or JSON) with matrix, distortion and size_wh_px."""
     loop: bool = True
@@ -92,6 +92,30 @@ class CameraConfig(Section):
     """Trigger input of an industrial camera, as line1; default: free run."""
     readout_ms: Annotated[float, Field(ge=0.0, le=200.0)] = 0.0
     """Readout time of a rolling shutter, from the first to the last row; 0 for a global shutter."""
+
+
+BodyName: TypeAlias = Annotated[
+    str, StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*To[A-Z][A-Za-z0-9_-]*$", max_length=20)
+]
+
+
+class ExternalTrackerConfig(Section):
+    """An external tracker behind Plus, whose poses come by OpenIGTLink in place of images of a camera."""
+
+    host: Annotated[str, StringConstraints(min_length=1)] = "127.0.0.1"
+    """Address of the server of Plus."""
+    port: Annotated[int, Field(ge=1, le=65535)] = 18944
+    unencrypted: Literal["anybody on this network can change the poses"] | None = None
+    """Exactly this text allows a host that is not loopback."""
+    transforms: Annotated[list[BodyName], Field(min_length=2, max_length=8)]
+    """Names of the transforms, each from a rigid body to the tracker, as DrillToTracker. The tools and the
+    reference name them as their markers."""
+    sd_mm: Annotated[float, Field(gt=0.0, le=10.0)]
+    """Standard deviation of the position of a body along each axis."""
+    sd_deg: Annotated[float, Field(gt=0.0, le=10.0)]
+    """Standard deviation of the rotation of a body about each axis."""
+    latency_ms: Annotated[float, Field(gt=0.0, le=500.0)]
+    """Time from a measurement to the arrival of the fastest message."""
 
 
 class RehearsalEventConfig(Section):
@@ -472,6 +496,7 @@ class Config(Section):
     server: ServerConfig = ServerConfig()
     security: SecurityConfig = SecurityConfig()
     camera: CameraConfig = CameraConfig()
+    external_tracker: ExternalTrackerConfig | None = None
     rehearsal: RehearsalConfig = RehearsalConfig()
     markers: dict[Name, MarkerConfig] = {}
     tools: dict[Name, ToolConfig] = {}

@@ -316,6 +316,9 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
         sentence = f"'{key}' is given, but 'dicom.receive.tls' is false, allowed: with TLS only"
         mistakes.append(Mistake(where=where.of(("dicom", "receive")), key=key, sentence=sentence))
     known = set(config.markers)
+    if source.kind is SourceKind.OPENIGTLINK:
+        mistakes.extend(_mistakes_of_tracker(config, where))
+        known = set() if config.external_tracker is None else set(config.external_tracker.transforms)
     if source_from_text(camera.source).kind is SourceKind.REHEARSAL:
         taken = [("markers", "drill"), ("tools", "drill")]
         taken += [("markers", "reference")] if config.rehearsal.reference else []
@@ -343,6 +346,37 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
             key = f"tools.{name}.{lone}"
             mistakes.append(Mistake(where=where.of(("tools", name)), key=key, sentence=sentence))
     return [*mistakes, *_sizes_of_no_screw(config, where), *_missing_plugins(config, where)]
+
+
+def _mistakes_of_tracker(config: Config, where: _Where) -> list[Mistake]:
+    """Return what an external tracker lacks: its section, one frame of all transforms, and the reference."""
+    tracker = config.external_tracker
+    if tracker is None:
+        sentence = "'external_tracker' is missing, but 'camera.source' is openigtlink, expected: its section"
+        return [Mistake(where=where.of(("camera", "source")), key="external_tracker", sentence=sentence)]
+    mistakes = []
+    names = tracker.transforms
+    # An inverse transform, as TrackerToDrill, has another frame than the others.
+    frames = sorted({name[name.index("To", 1) + 2 :] for name in names})
+    if len(frames) > 1 or len(set(names)) < len(names):
+        key = "external_tracker.transforms"
+        sentence = (
+            f"'{key}' lead to the frames {', '.join(frames)}, allowed: different bodies, all to the one "
+            "frame of the tracker, as DrillToTracker and ReferenceToTracker"
+        )
+        mistakes.append(
+            Mistake(where=where.of(("external_tracker", "transforms")), key=key, sentence=sentence)
+        )
+    if config.reference.marker is None:
+        # Nothing would notice that the tracker or the patient was moved.
+        sentence = (
+            "'reference.marker' is missing, but 'camera.source' is openigtlink, expected: the transform of "
+            f"the body on the patient, one of {', '.join(names)}"
+        )
+        mistakes.append(
+            Mistake(where=where.of(("reference", "marker")), key="reference.marker", sentence=sentence)
+        )
+    return mistakes
 
 
 def _sizes_of_no_screw(config: Config, where: _Where) -> list[Mistake]:

@@ -31,7 +31,7 @@ from tracker.navigation import (
 from tracker.navigation.clearance import select_wall
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
-from tracker.pose import SmoothingSettings, ToolModel
+from tracker.pose import ExternalTracker, SmoothingSettings, ToolModel
 from tracker.registration import AnchoredTo, Method, Registration
 
 if TYPE_CHECKING:
@@ -135,6 +135,7 @@ class Preparation:
         same_sensor_area: Images of all sizes show the same area of the sensor (setting).
         ct_id: of the CT on which the channel was planned; empty if there is none.
         placed_screws: see `CaseSetup`.
+        external: the external tracker; None for a camera.
     """
 
     camera: CameraModel | None
@@ -158,6 +159,7 @@ class Preparation:
     same_sensor_area: bool = False
     ct_id: str = ""
     placed_screws: tuple[PlacedScrew, ...] = ()
+    external: ExternalTracker | None = None
 
     def drill_reference_for(self, channel: Channel) -> DrillReference:
         """Return the drill reference of a channel: bone of the case, of the rehearsal, or the channel."""
@@ -198,6 +200,9 @@ class Preparation:
             CalibrationError: CAMERA_SIZE_MISMATCH, the camera was calibrated at another size; CAMERA_DIFFERS,
                 another one was calibrated.
         """
+        if self.external is not None:
+            # A camera of this size only states the size of the blank picture.
+            return replace(self._setup(nominal_camera(size_wh_px), calibrated=True), has_images=False)
         if self.camera is None:
             return self.uncalibrated_setup_for(size_wh_px)
         if device and self.camera_device and device != self.camera_device:
@@ -218,11 +223,13 @@ class Preparation:
         """Return this setup with the values of a case.
 
         A channel of the case only uses the registration of the case. Markers of the settings are not
-        replaced; tools without a known marker are omitted.
+        replaced; tools without a known marker are omitted, and with an external tracker all printed markers.
         """
         settled = {model.name for model in self.models}
         models = (*self.models, *(model for model in case.models if model.name not in settled))
         markers = {model.name for model in models}
+        if self.external is not None:
+            models, markers = (), set(self.external.bodies)
         known = {name: tool for name, tool in case.tools.items() if tool.marker in markers}
         changed = replace(
             self,
@@ -319,7 +326,13 @@ def build_setup(config: Config) -> Preparation:
         smoothing=smoothing,
         readout_s=(config.camera.readout_ms or (camera.readout_ms if camera else None) or 0.0) / 1000.0,
     )
-    if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
+    kind, tracker = source_from_text(config.camera.source).kind, config.external_tracker
+    if kind is SourceKind.OPENIGTLINK and tracker is not None:
+        external = ExternalTracker(
+            bodies=tuple(tracker.transforms), sd_mm=tracker.sd_mm, sd_deg=tracker.sd_deg
+        )
+        return replace(bare, camera=None, models=(), external=external)
+    if kind is SourceKind.REHEARSAL:
         theatre = theatre_from_config(config.rehearsal)
         theatre_models = (
             (theatre.marker,) if theatre.reference is None else (theatre.marker, theatre.reference)

@@ -92,7 +92,7 @@ def _add_calibration(router: APIRouter, step: CameraStep) -> None:
 
 
 def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
-    @router.post("/collection", status_code=201, responses=rejections(422))
+    @router.post("/collection", status_code=201, responses=rejections(409, 422))
     def begin(requested: CollectionRequest) -> CollectionMessage:
         """Start collecting views of a board from the live images; still views that add information are taken.
 

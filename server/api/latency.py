@@ -34,7 +34,7 @@ def latency_router(step: LatencyStep) -> APIRouter:
             applies=result is not None and step.applies(result),
         )
 
-    @router.post("/measurement", status_code=201, responses=rejections(422, 503))
+    @router.post("/measurement", status_code=201, responses=rejections(409, 422, 503))
     def begin(requested: LatencyCodesRequest) -> LatencyCodesMessage:
         """Start reading codes in the live images, and return the codes that the page has to show.
 

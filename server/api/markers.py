@@ -12,7 +12,7 @@ from server.api.uploads import received
 from server.config import Name
 from server.image_file import png_bytes
 from server.procedure.markers import KnownMarker, MarkerStep
-from server.store import Home
+from server.store import Home, NotFound
 from server.stream.messages import Message
 
 MAX_PICTURE_BYTES = 32 * 2**20
@@ -24,11 +24,11 @@ class KnownMarkerMessage(Message):
     """A marker of the tracker."""
 
     name: str
-    side_mm: float
-    """Outer side of the printed black square."""
-    width_px: int
-    """Size of its image, which is at `/api/markers/{name}/picture`."""
-    height_px: int
+    side_mm: float | None
+    """Outer side of the printed black square; null for a rigid body of an external tracker."""
+    width_px: int | None
+    """Size of its image, which is at `/api/markers/{name}/picture`; null for a rigid body, which has none."""
+    height_px: int | None
     document_id: str | None
     """Its document in the open case; null for a marker of the settings."""
     made_at: str | None
@@ -80,7 +80,15 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
     )
     def picture(name: str) -> Response:
         """Return the greyscale image of the marker, row 0 at the top."""
-        return Response(png_bytes(step.one(name).model.image), media_type="image/png")
+        model = step.one(name).model
+        if model is None:
+            raise NotFound(
+                "MARKER_WITHOUT_IMAGE",
+                f"'{name}' is a rigid body of an external tracker, which has no image",
+                "GET /api/markers states which markers have one.",
+                {"marker": name},
+            )
+        return Response(png_bytes(model.image), media_type="image/png")
 
     @router.delete("/{name}", status_code=204, responses=rejections(404, 409, 422, 503, 507))
     def remove(name: str, made_by: MadeByQuery) -> Response:
@@ -92,11 +100,11 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
 
 
 def _message(known: KnownMarker) -> KnownMarkerMessage:
-    height, width = known.model.image.shape
+    height, width = (None, None) if known.model is None else known.model.image.shape
     document = known.document
     return KnownMarkerMessage(
-        name=known.model.name,
-        side_mm=known.model.side_mm,
+        name=known.name,
+        side_mm=known.side_mm,
         width_px=width,
         height_px=height,
         document_id=None if document is None else document.id,

@@ -15,6 +15,7 @@ class SourceKind(StrEnum):
     """Kinds of sources."""
 
     REHEARSAL = "rehearsal"
+    OPENIGTLINK = "openigtlink"  # an external tracker, which sends poses and no images
     PHONE = "phone"  # phone or tablet, whose page sends the images of its camera
     LOCAL_CAMERA = "local camera"
     INDUSTRIAL_CAMERA = "industrial camera"
@@ -39,8 +40,10 @@ class SourceAddress:
 
 
 def source_from_text(text: str | int) -> SourceAddress:
-    """Parse a source: rehearsal, phone, camera (number, device or serial), stream, plug-in, or path."""
+    """Parse a source: rehearsal, openigtlink, phone, camera, stream, plug-in, or path."""
     plain = str(text).strip()
+    if plain.lower() == "openigtlink":
+        return SourceAddress(kind=SourceKind.OPENIGTLINK, text="openigtlink", name="openigtlink")
     if plain.lower() == "rehearsal":
         return SourceAddress(kind=SourceKind.REHEARSAL, text="rehearsal", name="rehearsal")
     if plain.lower() == "phone":

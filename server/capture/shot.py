@@ -1,5 +1,6 @@
 """One image from a source, and the interface of all sources."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -8,6 +9,7 @@ import numpy.typing as npt
 
 from server.errors import CaptureError
 from server.live import CameraStatus
+from tracker.geometry import Camera, Marker, Rigid
 
 
 def is_bgr(image: np.ndarray) -> bool:
@@ -28,6 +30,7 @@ class Shot:
         file: name of the image's own file; None where it has none.
         is_predicted: whether it was decoded from video whose images are predicted from earlier ones.
         jpeg: the source's own JPEG, which `decoded` turns into the same image; empty where it has none.
+        poses: the valid poses of an external tracker by body, whose image is blank; None for a camera.
     """
 
     image: npt.NDArray[np.uint8]
@@ -37,6 +40,7 @@ class Shot:
     file: str | None = None
     is_predicted: bool = False
     jpeg: bytes = b""
+    poses: Mapping[str, Rigid[Camera, Marker]] | None = None
 
     @classmethod
     def live(

@@ -9,6 +9,7 @@ from server.capture.folder import FolderSource
 from server.capture.industrial import BaslerCameras, GenTLCameras, IndustrialCameraSource
 from server.capture.local_camera import CalibratedCamera, LocalCameraSource
 from server.capture.modes import WantedMode
+from server.capture.openigtlink import OpenIgtLinkSource
 from server.capture.pacer import Pacer
 from server.capture.phone import Inbox, PhoneSource
 from server.capture.plugin import PluginSource
@@ -47,7 +48,7 @@ def source_from_config(
         inbox: images of a phone; needed for that source only.
 
     Raises:
-        CaptureError: REHEARSAL_WITHOUT_THEATRE, PHONE_WITHOUT_SERVER.
+        CaptureError: REHEARSAL_WITHOUT_THEATRE, TRACKER_NOT_CONFIGURED, PHONE_WITHOUT_SERVER.
     """
     camera = config.camera
     address = source_from_text(camera.source)
@@ -66,6 +67,16 @@ def source_from_config(
             first_number=first_number,
             played_scene=played_scene,
             outages=outages,
+        )
+    if address.kind is SourceKind.OPENIGTLINK:
+        if config.external_tracker is None:
+            raise CaptureError(
+                "TRACKER_NOT_CONFIGURED",
+                "the source is openigtlink, but the settings have no external_tracker",
+                "Add the section external_tracker to the settings.",
+            )
+        return OpenIgtLinkSource(
+            address, settings=config.external_tracker, stop=stop, first_number=first_number
         )
     if address.kind is SourceKind.PHONE:
         return _phone(inbox, stop, wanted_mode(camera), first_number)

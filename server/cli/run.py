@@ -183,7 +183,7 @@ def _check_markers(preparation: "Preparation") -> None:
     from server.marker_remarks import reject_ambiguous_markers  # noqa: PLC0415
 
     reject_ambiguous_markers(preparation.models)
-    if not preparation.models:
+    if not preparation.models and preparation.external is None:
         log.warning(
             "no marker is configured, so nothing is tracked",
             code="NO_MARKER",

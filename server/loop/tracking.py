@@ -25,6 +25,7 @@ from tracker.navigation import (
 )
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
+from tracker.pose import Sighting
 from tracker.registration import Registration
 
 log = structlog.get_logger(__name__)
@@ -103,7 +104,7 @@ class Tracking:
         setup, tracker = self._setup, self._tracker
         if setup is None or tracker is None:
             raise RuntimeError("there is no setup")
-        sightings = tracker.step(shot.image, captured_at_s=shot.captured_at_s, is_predicted=shot.is_predicted)
+        sightings = self._sightings(tracker, shot)
         tracked_s = clock()
         motion = self._watching.take(setup, shot.image, sightings, at_s=shot.captured_at_s)
         self._note_controls(setup, controls or {})
@@ -133,6 +134,13 @@ class Tracking:
             "navigation": (clock() - watched_s) * 1000.0,
         }
         return dataclasses.replace(snapshot, stage_ms=stage_ms)
+
+    def _sightings(self, tracker: Tracker, shot: Shot) -> dict[str, Sighting]:
+        """Return the sightings of the markers in an image, or of the bodies of an external tracker."""
+        external = self._preparation.external
+        if external is not None:
+            return external.sightings(shot.poses or {})
+        return tracker.step(shot.image, captured_at_s=shot.captured_at_s, is_predicted=shot.is_predicted)
 
     def prepare(self, size_wh_px: tuple[int, int], at_s: float, *, device: str = "") -> None:
         """Set up for images of this size and camera, the first of which is captured at `at_s`."""

@@ -1,6 +1,5 @@
 """OpenIGTLink: sends poses, points, headline and their absence to 3D Slicer, Plus and other programs.
 
-wire.py      encoding and decoding of messages; pure
 contents.py  messages of one instant
 feed.py      messages to one client, including those on expired content; pure, time is passed in
 requests.py  parsing of requests of a client; pure

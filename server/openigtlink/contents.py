@@ -12,7 +12,7 @@ import numpy as np
 
 from server.config import OpenIgtLinkConfig
 from server.live import Instant, ProcessState, SourceState
-from server.openigtlink.wire import (
+from server.openigtlink_wire import (
     Point,
     Status,
     StatusCode,

@@ -17,7 +17,7 @@ from server.openigtlink.contents import (
     InstantContents,
     status_of_device,
 )
-from server.openigtlink.wire import (
+from server.openigtlink_wire import (
     Message,
     Status,
     StatusCode,

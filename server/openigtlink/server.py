@@ -19,8 +19,16 @@ from server.config import Config
 from server.live import Instant, LiveHub
 from server.openigtlink.contents import PROGRAM, InstantContents, contents_of, status_of_device
 from server.openigtlink.feed import Feed
-from server.openigtlink.requests import OversizeError, RequestReader, TooManyRequestsError
-from server.openigtlink.wire import ChecksumError, Message, Status, StatusCode, WireError, pack
+from server.openigtlink.requests import RequestReader, TooManyRequestsError
+from server.openigtlink_wire import (
+    ChecksumError,
+    Message,
+    OversizeError,
+    Status,
+    StatusCode,
+    WireError,
+    pack,
+)
 
 SEND_TIMEOUT_S = 2.0
 # Send buffer of the kernel, small so that no old pose waits in it. The messages of an instant need 1 kB.

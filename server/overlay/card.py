@@ -1,4 +1,6 @@
-"""Picture with a message, shown instead of an image."""
+"""Pictures with a message, shown instead of an image, and the message of an external tracker's picture."""
+
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -13,12 +15,17 @@ from server.overlay.primitives import (
     text,
     text_width_px,
 )
+from server.texts import Language
 
 BACKGROUND = 28
 TITLE_PX = 60.0
 LINE_PX = 30.0
 NOTICE_PX = 17.0
 MAX_LINES = 5
+NO_CAMERA: Mapping[Language, tuple[str, str]] = {
+    "en": ("NO CAMERA PICTURE", "an external tracker measures"),
+    "de": ("KEIN KAMERABILD", "ein externes Trackingsystem misst"),
+}
 
 
 def draw_card(*, size_wh_px: tuple[int, int], title: str, lines: tuple[str, ...]) -> Image:
@@ -35,6 +42,14 @@ def draw_card(*, size_wh_px: tuple[int, int], title: str, lines: tuple[str, ...]
         _centred(card, row, base + (62.0 + 44.0 * index) * scale, LINE_PX * scale, REGULAR, WHITE)
     _centred(card, RESEARCH_SOFTWARE, height - 20.0 * scale, NOTICE_PX * scale, REGULAR, QUIET)
     return card
+
+
+def draw_no_camera(image: Image, language: Language, *, scale: float) -> None:
+    """State in the blank picture of an external tracker that there is no camera; above its middle."""
+    title, detail = NO_CAMERA[language]
+    base = image.shape[0] / 2.0 - 80.0 * scale
+    _centred(image, title, base, LINE_PX * scale, SEMIBOLD, WHITE)
+    _centred(image, detail, base + 40.0 * scale, LINE_PX * scale, REGULAR, QUIET)
 
 
 def _fitting(words: str, size_px: float, room_px: float) -> float:

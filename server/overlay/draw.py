@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from server.overlay.alarm_band import draw_alarm_band
 from server.overlay.bullseye import Inset, Target, draw_bullseye, reach_of
+from server.overlay.card import draw_no_camera
 from server.overlay.channel import draw_channel, draw_placed_screw
 from server.overlay.drill import draw_drill, draw_marker
 from server.overlay.headline import draw_headline
@@ -52,7 +53,7 @@ def draw_overlay(
     """Return a copy of the image with the overlay.
 
     Without a camera calibration only outlines, names and scores are drawn. Absent results are not drawn; the
-    panel states the reason.
+    panel states the reason. The blank image of an external tracker states that there is no camera.
 
     Args:
         image: uint8, BGR (h, w, 3) or grey (h, w); the image from which the snapshot was computed.
@@ -75,11 +76,10 @@ def draw_overlay(
     drawn = np.repeat(image[..., None], 3, axis=2) if image.ndim == 2 else image.copy(order="C")
     # The width limits the scale of a portrait image.
     scale = min(drawn.shape[0] / BASE_HEIGHT_PX, drawn.shape[1] / MIN_WIDTH_PX)
-    if snapshot.setup.camera_calibrated:
-        _draw_theatre(drawn, snapshot, scale)
-    for name, sighting in snapshot.sightings.items():
-        if isinstance(sighting, Seen):
-            draw_marker(drawn, name, sighting, scale=scale)
+    if not snapshot.setup.has_images:
+        draw_no_camera(drawn, language, scale=scale)
+    else:
+        _draw_projected(drawn, snapshot, scale)
     if content is OverlayContent.GEOMETRY:
         return drawn
     panel = panel_of(snapshot, alarms, language)
@@ -94,6 +94,15 @@ def draw_overlay(
     draw_small_print(drawn, snapshot, language=language, scale=scale)
     draw_alarm_band(drawn, alarms, scale=scale, language=language, beside=beside)
     return drawn
+
+
+def _draw_projected(image: Image, snapshot: NavigationSnapshot, scale: float) -> None:
+    """Draw what is measured where it lies in the image."""
+    if snapshot.setup.camera_calibrated:
+        _draw_theatre(image, snapshot, scale)
+    for name, sighting in snapshot.sightings.items():
+        if isinstance(sighting, Seen):
+            draw_marker(image, name, sighting, scale=scale)
 
 
 def _draw_theatre(image: Image, snapshot: NavigationSnapshot, scale: float) -> None:

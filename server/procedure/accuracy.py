@@ -21,6 +21,7 @@ from server.procedure.accuracy_collection import AccuracyCollection
 from server.procedure.camera import MAIN_CAMERA, camera_from_document
 from server.procedure.collecting_step import CollectingStep
 from server.procedure.divot_capture import tool_in_use
+from server.procedure.images_in_use import no_camera_in_use
 from server.procedure.markers import MarkerStep
 from server.store import CaseStore, DocumentKind
 from server.store.latency_file import LatencyFile
@@ -118,6 +119,7 @@ class AccuracyStep(CollectingStep[AccuracyCollection]):
             InvalidInput: PLATE_INVALID, PLATE_RULERS_INVALID, TOOL_UNKNOWN, CERTIFICATE_NOT_APPLICABLE.
             CalibrationError: ACCURACY_PLATE_UNMEASURED or ACCURACY_PLATE_SCALE.
             CaptureError: NO_PICTURE.
+            SetupOrderError: NO_CAMERA_IN_USE.
         """
         plate.file.plate()
         scale = plate.file.scale(plate.rulers_mm, sd_mm=plate.ruler_sd_mm)
@@ -126,12 +128,15 @@ class AccuracyStep(CollectingStep[AccuracyCollection]):
             raise problems[0]
         snapshot, source = self._newest_image()
         used, camera = tool_in_use(snapshot, tool), snapshot.setup.camera
+        marker = self._markers.one(used.marker).model
+        if marker is None:
+            raise no_camera_in_use()
         system = ExaminedSystem(
             camera=self._cameras.find(camera, device=source.device),
             marker=used.marker,
             tool=TrackedTool(
                 camera=camera,
-                side_mm=self._markers.one(used.marker).model.side_mm,
+                side_mm=marker.side_mm,
                 tip_in_marker_mm=used.marker_from_tool.translation_mm,
                 tip_covariance_mm2=used.tip_covariance_mm2,
             ),

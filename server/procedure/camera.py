@@ -12,6 +12,7 @@ from server.live import LiveHub
 from server.planning.camera import calibrate_views
 from server.procedure.board_collection import BoardCollection
 from server.procedure.collecting_step import CollectingStep
+from server.procedure.images_in_use import reject_without_images
 from server.procedure.open_case import require_open_case
 from server.setup import camera_for_size
 from server.store import Case, CaseStore, Document, DocumentKind, Validity
@@ -60,7 +61,12 @@ class CameraStep(CollectingStep[BoardCollection]):
         self._same_sensor_area = same_sensor_area
 
     def begin(self, board: Board) -> BoardCollection:
-        """Start to collect views of this board; a previous collection is discarded."""
+        """Start to collect views of this board; a previous collection is discarded.
+
+        Raises:
+            SetupOrderError: NO_CAMERA_IN_USE.
+        """
+        reject_without_images(self._hub)
         return self._start(lambda: BoardCollection(self._hub, board))
 
     def calibrate(self, *, made_by: str) -> Job:

@@ -78,7 +78,7 @@ class CertificateStep:
             return ()
         snapshot, device = newest.snapshot, newest.source.device
         certificates = {one.certificate.tool.marker: one.certificate for one in self._installed.all()}
-        sides_mm = {known.model.name: known.model.side_mm for known in self._markers.known()}
+        sides_mm = {known.name: known.side_mm for known in self._markers.known()}
         found = []
         for name, tool in sorted(snapshot.setup.tools.items()):
             certificate, side_mm = certificates.get(tool.marker), sides_mm.get(tool.marker)

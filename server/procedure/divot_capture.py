@@ -199,6 +199,12 @@ def reject_uncalibrated(snapshot: NavigationSnapshot) -> None:
     Raises:
         InvalidInput: CERTIFICATE_NOT_APPLICABLE.
     """
+    if not snapshot.setup.has_images:
+        raise InvalidInput(
+            "CERTIFICATE_NOT_APPLICABLE",
+            "the poses come from an external tracker: no certificate of a camera applies",
+            "Rely on the accuracy that the maker of the tracker states.",
+        )
     if not snapshot.setup.camera_calibrated or snapshot.motion.camera_changes:
         raise InvalidInput(
             "CERTIFICATE_NOT_APPLICABLE",

@@ -21,6 +21,7 @@ from server.latency import (
 )
 from server.live import Instant, LiveHub, Problem
 from server.procedure.collecting_step import CollectingStep
+from server.procedure.images_in_use import reject_without_images
 from server.procedure.live_listener import LiveListener
 from server.store import CaseStore
 from server.store.latency_file import LatencyFile
@@ -215,7 +216,9 @@ class LatencyStep(CollectingStep[LatencyMeasurement]):
 
         Raises:
             CaptureError: NO_PICTURE.
+            SetupOrderError: NO_CAMERA_IN_USE.
         """
+        reject_without_images(self._hub)
         newest = self._hub.newest
         rate_hz = 0.0 if newest is None else newest.source.rate_hz
         if newest is None or newest.is_stopped or rate_hz <= 0.0:

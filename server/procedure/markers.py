@@ -2,10 +2,11 @@
 
 A case adds markers to those of the settings and never replaces them. A marker image is a document with a
 file, so a tool on a changed marker becomes out of date by the rule that applies to every document. The
-reference marker on the patient is named in the settings only.
+reference marker on the patient is named in the settings only. With an external tracker its rigid bodies take
+the place of all printed markers.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -18,6 +19,7 @@ from server.config import Section
 from server.errors import SetupOrderError
 from server.marker_file import load_marker_image, marker_image
 from server.procedure.documents import parse_document
+from server.procedure.images_in_use import no_camera_in_use
 from server.procedure.open_case import require_open_case
 from server.store import CaseStore, Document, DocumentKind, NotFound
 from server.texts import WITHDRAWALS
@@ -38,15 +40,22 @@ class MarkerRecord(Section):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KnownMarker:
-    """A tracked marker.
+    """A tracked marker, or a rigid body of an external tracker.
 
     Attributes:
-        model: model of the marker.
+        name: its name.
+        model: model of the marker; None for a rigid body, which has no image.
         document: its document in the open case; None for a configured marker.
     """
 
-    model: MarkerModel
+    name: str
+    model: MarkerModel | None
     document: Document | None
+
+    @property
+    def side_mm(self) -> float | None:
+        """Side of the printed square; None for a rigid body."""
+        return None if self.model is None else self.model.side_mm
 
 
 class MarkerStep:
@@ -55,15 +64,21 @@ class MarkerStep:
     Args:
         store: where they are stored.
         defaults: the configured markers; no marker of a case may use their names.
+        bodies: names of the rigid bodies of an external tracker; empty for a camera.
     """
 
-    def __init__(self, *, store: CaseStore, defaults: Sequence[MarkerModel]) -> None:
+    def __init__(
+        self, *, store: CaseStore, defaults: Sequence[MarkerModel], bodies: Sequence[str] = ()
+    ) -> None:
         self._store = store
+        self._bodies = tuple(bodies)
         self._defaults = {model.name: model for model in defaults}
 
     def known(self) -> tuple[KnownMarker, ...]:
-        """Return all tracked markers: of the settings first, then of the open case."""
-        known = [KnownMarker(model=model, document=None) for model in self._defaults.values()]
+        """Return all tracked markers: of the settings first, then of the open case; or all rigid bodies."""
+        if self._bodies:
+            return tuple(KnownMarker(name=name, model=None, document=None) for name in self._bodies)
+        known = [KnownMarker(name=name, model=model, document=None) for name, model in self._defaults.items()]
         case = self._store.get_open_case()
         for document in () if case is None else self._store.all(case.id, DocumentKind.MARKER):
             if document.name in self._defaults:
@@ -71,18 +86,18 @@ class MarkerStep:
             try:
                 model = self._model_of(document)
                 reject_mirror_symmetric([model])
-                reject_similar([*(one.model for one in known), model])
+                reject_similar([*_models(known), model])
             except NavigationError as error:
                 # It is not tracked; the others are.
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
                 continue
-            known.append(KnownMarker(model=model, document=document))
+            known.append(KnownMarker(name=model.name, model=model, document=document))
         return tuple(known)
 
     @property
     def of_case(self) -> tuple[MarkerModel, ...]:
         """The markers that the open case adds to those of the settings."""
-        return tuple(one.model for one in self.known() if one.document is not None)
+        return _models(one for one in self.known() if one.document is not None)
 
     def one(self, name: str) -> KnownMarker:
         """Return a tracked marker by name.
@@ -90,7 +105,7 @@ class MarkerStep:
         Raises:
             NotFound: MARKER_UNKNOWN.
         """
-        found = next((known for known in self.known() if known.model.name == name), None)
+        found = next((known for known in self.known() if known.name == name), None)
         if found is None:
             raise NotFound(
                 "MARKER_UNKNOWN",
@@ -113,11 +128,13 @@ class MarkerStep:
             made_by: name of the person.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN, MARKER_OF_SETTINGS.
+            SetupOrderError: NO_CASE_OPEN, MARKER_OF_SETTINGS, NO_CAMERA_IN_USE.
             InvalidInput: the image is not a valid marker, MARKER_MIRROR_SYMMETRIC, MARKERS_TOO_SIMILAR,
                 MARKERS_ENOUGH.
         """
         case = require_open_case(self._store)
+        if self._bodies:
+            raise no_camera_in_use()
         self._reject_configured(name)
         content = picture.read_bytes()
         model = MarkerModel.from_image(marker_image(content, named=named), side_mm=side_mm, name=name)
@@ -169,7 +186,7 @@ class MarkerStep:
 
     def _reject_among_others(self, model: MarkerModel) -> None:
         """Reject a marker that could be confused with another, and too many markers (search time)."""
-        others = [known.model for known in self.known() if known.model.name != model.name]
+        others = _models(known for known in self.known() if known.name != model.name)
         reject_similar([*others, model])
         if len(others) >= MAX_MARKERS:
             raise InvalidInput(
@@ -178,6 +195,10 @@ class MarkerStep:
                 "Remove a marker that is no longer used.",
                 {"markers": len(others), "allowed": MAX_MARKERS},
             )
+
+
+def _models(known: Iterable[KnownMarker]) -> tuple[MarkerModel, ...]:
+    return tuple(one.model for one in known if one.model is not None)
 
 
 @lru_cache(maxsize=32)

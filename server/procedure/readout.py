@@ -12,6 +12,7 @@ from server.live import LiveHub
 from server.planning.camera import fit_readout
 from server.procedure.camera import MAIN_CAMERA, READOUT_KEYS, camera_from_document
 from server.procedure.collecting_step import CollectingStep
+from server.procedure.images_in_use import reject_without_images
 from server.procedure.open_case import require_open_case
 from server.procedure.readout_collection import BurstStage, ReadoutCollection
 from server.store import Case, CaseStore, Document, DocumentKind
@@ -65,9 +66,10 @@ class ReadoutStep(CollectingStep[ReadoutCollection]):
         """Wait for this board to move, and take a burst; a previous burst is discarded.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN.
+            SetupOrderError: NO_CASE_OPEN, NO_CAMERA_IN_USE.
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE, the camera has to be calibrated first.
         """
+        reject_without_images(self._hub)
         self._calibration(require_open_case(self._store))
         return self._start(lambda: ReadoutCollection(self._hub, board))
 

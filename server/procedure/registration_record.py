@@ -188,16 +188,18 @@ def _as_imported(record: RegistrationRecord, document: Document) -> Registration
     return record.model_copy(update={"nudged": record.nudged.model_copy(update={"nudges": nudges})})
 
 
-def registration_from_document(document: Document, *, reference: str) -> RegistrationRecord:
+def registration_from_document(document: Document, *, reference: str, has_images: bool) -> RegistrationRecord:
     """Parse the registration in a case document and validate its matrices.
 
     Args:
         document: the stored document.
         reference: the reference marker on the patient now; empty if there is none.
+        has_images: whether a camera measures now; False for an external tracker.
 
     Raises:
         InvalidInput: REGISTRATION_DOCUMENT_INVALID.
-        RegistrationError: REFERENCE_DIFFERS, it is anchored to another marker than this one.
+        RegistrationError: REFERENCE_DIFFERS, it is anchored to another marker than this one;
+            REGISTERED_TO_CAMERA, in whose place an external tracker measures.
     """
     try:
         record = RegistrationRecord.model_validate(dict(document.content), strict=False)
@@ -229,6 +231,13 @@ def registration_from_document(document: Document, *, reference: str) -> Registr
                 "title": document.title,
                 "reference_setting": now,
             },
+        )
+    if record.anchored_to is AnchoredTo.CAMERA and not has_images:
+        raise RegistrationError(
+            "REGISTERED_TO_CAMERA",
+            f"{document.title} is anchored to a camera, but an external tracker measures now",
+            "Register again.",
+            {"title": document.title_text},
         )
     return record
 

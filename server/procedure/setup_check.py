@@ -164,7 +164,9 @@ class SetupChecker:
             if registered is None:
                 landmarks_mm = self._landmarks_mm(active, planned)
                 return check_of_landmarks(planned, landmarks_mm, self._catalogue, has_surface=has_surface)
-            record = registration_from_document(registered, reference=self._defaults.reference)
+            record = registration_from_document(
+                registered, reference=self._defaults.reference, has_images=self._defaults.has_images
+            )
             record = with_tip_in_common(record, registered, tools)
             return check_of_registration(
                 planned, record, self._known(tools), self._catalogue, has_surface=has_surface

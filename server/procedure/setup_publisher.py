@@ -168,7 +168,9 @@ class SetupPublisher:
                     ct_id = planned_ct_id(self._store, document)
                 elif document.kind is DocumentKind.REGISTRATION:
                     registered = with_tip_in_common(
-                        registration_from_document(document, reference=self._defaults.reference),
+                        registration_from_document(
+                            document, reference=self._defaults.reference, has_images=self._defaults.has_images
+                        ),
                         document,
                         [one for one in documents if one.kind is DocumentKind.TOOL],
                     )

@@ -118,7 +118,7 @@ class Steps:
             tools: tools of the settings, which are used in every case.
         """
         defaults = defaults_from_config(config)
-        marker_step = MarkerStep(store=store, defaults=markers)
+        marker_step = MarkerStep(store=store, defaults=markers, bodies=_bodies(config))
         labels = LabelProvider(store)
         procedure = _procedure(store, config, defaults, labels, tracking)
         latencies = LatencyFile(store.home.folder)
@@ -308,9 +308,16 @@ def defaults_from_config(config: Config) -> SetupDefaults:
         max_rms_px=config.calibration.max_rms_px,
         reference=config.reference.marker or rehearsed,
         has_camera=config.camera.calibration is not None or knows_itself,
+        has_images=source.kind is not SourceKind.OPENIGTLINK,
         has_plan=knows_itself,
         tools=frozenset(config.tools) | (frozenset({REHEARSED_TOOL}) if knows_itself else frozenset()),
     )
+
+
+def _bodies(config: Config) -> Sequence[str]:
+    """Return the names of the rigid bodies of an external tracker; empty for a camera."""
+    is_external = source_from_text(config.camera.source).kind is SourceKind.OPENIGTLINK
+    return config.external_tracker.transforms if is_external and config.external_tracker is not None else ()
 
 
 def _knows_itself(config: Config) -> bool:

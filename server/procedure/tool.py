@@ -26,6 +26,8 @@ from tracker.pose.tool.collector import Purpose
 class ToolRecord(ToolFile):
     """A tool as stored in a case: the content of a tool file, and its shape from the drawing."""
 
+    side_mm: Annotated[float, Field(gt=0.0, le=1000.0)] | None  # pyrefly: ignore[bad-override]  # wider than in a file
+    """Null for a rigid body of an external tracker, which has no square."""
     axis_in_marker: Point | None = None
     """Axis from the drawing; that of a spin calibration takes precedence."""
     radius_mm: Annotated[float, Field(gt=0.0, le=50.0)]
@@ -115,7 +117,7 @@ class ToolStep(CollectingStep[ToolCollection]):
             CalibrationError: TOOL_TIP_MISSING, a tip check or spin before the pivot.
         """
         record = self._record(tool)
-        known = {one.model.name: one.document for one in self._markers.known()}
+        known = {one.name: one.document for one in self._markers.known()}
         marker = (
             marker or (record.marker if record else None) or self._marker_in_settings(tool, sorted(known))
         )
@@ -264,7 +266,7 @@ class ToolStep(CollectingStep[ToolCollection]):
         same_marker = record is not None and record.marker == collection.marker
         return ToolRecord(
             marker=collection.marker,
-            side_mm=self._markers.one(collection.marker).model.side_mm,
+            side_mm=self._markers.one(collection.marker).side_mm,
             pivot=pivot_part(outcome),
             # A new pivot calibration does not change the axis, as long as the marker is the same.
             spin=record.spin if record is not None and same_marker else None,

@@ -154,12 +154,12 @@ def _sighting(message: MarkerSeenMessage | MarkerUnseenMessage) -> Sighting:
         # There is no pose without a calibrated camera; nothing is drawn from this one.
         camera_from_marker=Rigid.identity() if pose is None else _rigid(pose),
         pose_covariance=_unknown(6, 6),
-        corners_px=np.array(message.corners_px),
-        score_ratio=message.score_ratio,
-        target_score_ratio=message.target_score_ratio,
-        model_coverage_ratio=message.model_coverage_ratio,
-        target_coverage_ratio=message.target_coverage_ratio,
-        fit_error_px2=message.fit_error_px2,
+        corners_px=np.array(message.corners_px).reshape(-1, 2),
+        score_ratio=_or_nan(message.score_ratio),
+        target_score_ratio=_or_nan(message.target_score_ratio),
+        model_coverage_ratio=_or_nan(message.model_coverage_ratio),
+        target_coverage_ratio=_or_nan(message.target_coverage_ratio),
+        fit_error_px2=_or_nan(message.fit_error_px2),
         found_by=message.found_by,
     )
 

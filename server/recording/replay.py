@@ -39,6 +39,7 @@ from server.recording_file.codec import Json
 from server.recording_file.topics import FORMAT_VERSION
 from server.stream.snapshot_messages import snapshot_message
 from tracker.errors import InvalidInput, NavigationError
+from tracker.geometry import Camera, Marker, Rigid
 from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import AlarmLimits
 
@@ -276,6 +277,8 @@ class _Replay:
             captured_at_s=tracked.captured_at_s,
             is_predicted=tracked.is_predicted,
         )
+        if self._tracking.preparation.external is not None:
+            shot = replace(shot, poses=_poses_in(recorded))
         self.report.images += 1
         self._newest = number
         try:
@@ -346,6 +349,12 @@ class _Replay:
     def _remark(self, text: str) -> None:
         if text not in self.report.remarks:
             self.report.remarks.append(text)
+
+
+def _poses_in(recorded: Json) -> dict[str, Rigid[Camera, Marker]]:
+    """Return the poses of an external tracker, which the message of their moment has in all digits."""
+    seen = {one["name"]: one["sighting"] for one in recorded["markers"] if one["sighting"]["kind"] == "seen"}
+    return {name: Rigid(**one["camera_from_marker"]) for name, one in seen.items()}
 
 
 def differences(

@@ -173,7 +173,8 @@ class Stage:
                 for index, screw in enumerate(setup.placed_screws):
                     add_placed_screw(scene, f"{root}/placed_{index}", screw)
         if setup.camera_calibrated:
-            self._camera = add_camera(scene, root, setup.camera)
+            if setup.has_images:
+                self._camera = add_camera(scene, root, setup.camera)
             if setup.reference:
                 self._reference = add_reference(scene, root)
         # Numbered, because a name may contain a slash, which separates child nodes in viser.
@@ -224,6 +225,7 @@ def _key(setup: Setup) -> tuple[object, ...]:
     channel, registration = setup.channel, setup.registration
     return (
         setup.camera_calibrated,
+        setup.has_images,
         setup.reference,
         setup.screw,
         tuple(

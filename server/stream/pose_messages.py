@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
+from server.number_format import finite
 from server.stream.message import Message
 from tracker.geometry import Rigid
 from tracker.navigation import Absent, AbsentReason, ToolPose, VertebraPose
@@ -33,14 +34,16 @@ class MarkerSeenMessage(Message):
 
     kind: Literal["seen"] = "seen"
     corners_px: list[list[float]]
-    """Top-left, top-right, bottom-right, bottom-left of the printed face, (u, v) in px."""
+    """Top-left, top-right, bottom-right, bottom-left of the printed face, (u, v) in px; empty for a body of
+    an external tracker."""
     camera_from_marker: PoseMessage | None
     """Pose of the marker; null while the camera is not calibrated."""
-    score_ratio: float
-    target_score_ratio: float
-    model_coverage_ratio: float
-    target_coverage_ratio: float
-    fit_error_px2: float
+    score_ratio: float | None
+    """This and the following figures are null for a body of an external tracker."""
+    target_score_ratio: float | None
+    model_coverage_ratio: float | None
+    target_coverage_ratio: float | None
+    fit_error_px2: float | None
     found_by: FoundBy
 
 
@@ -129,10 +132,10 @@ def _sighting(sighting: Sighting, *, calibrated: bool) -> MarkerSeenMessage | Ma
     return MarkerSeenMessage(
         corners_px=sighting.corners_px.tolist(),
         camera_from_marker=pose_message(pose) if calibrated else None,
-        score_ratio=sighting.score_ratio,
-        target_score_ratio=sighting.target_score_ratio,
-        model_coverage_ratio=sighting.model_coverage_ratio,
-        target_coverage_ratio=sighting.target_coverage_ratio,
-        fit_error_px2=sighting.fit_error_px2,
+        score_ratio=finite(sighting.score_ratio),
+        target_score_ratio=finite(sighting.target_score_ratio),
+        model_coverage_ratio=finite(sighting.model_coverage_ratio),
+        target_coverage_ratio=finite(sighting.target_coverage_ratio),
+        fit_error_px2=finite(sighting.fit_error_px2),
         found_by=sighting.found_by,
     )

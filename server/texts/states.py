@@ -68,6 +68,7 @@ UNSEEN: Mapping[Language, Mapping[UnseenReason, str]] = {
         UnseenReason.SCORE_TOO_LOW: "not seen, too few of its edges found",
         UnseenReason.TARGET_SCORE_TOO_LOW: "not seen, edges found that are not the marker's",
         UnseenReason.SHAPE_DIFFERS: "not seen, similar object of another shape",
+        UnseenReason.NOT_REPORTED: "not seen, the tracker reports no valid pose",
         UnseenReason.MARKER_TWICE: "in view twice, cover or remove all but one",
     },
     "de": {
@@ -75,6 +76,7 @@ UNSEEN: Mapping[Language, Mapping[UnseenReason, str]] = {
         UnseenReason.SCORE_TOO_LOW: "nicht gesehen, zu wenige seiner Kanten gefunden",
         UnseenReason.TARGET_SCORE_TOO_LOW: "nicht gesehen, Kanten gefunden, die nicht zum Marker gehören",
         UnseenReason.SHAPE_DIFFERS: "nicht gesehen, ähnliches Objekt mit anderer Form",
+        UnseenReason.NOT_REPORTED: "nicht gesehen, das Trackingsystem meldet keine gültige Lage",
         UnseenReason.MARKER_TWICE: "doppelt im Bild, alle bis auf einen abdecken oder entfernen",
     },
 }

@@ -72,6 +72,12 @@ REASONS: Mapping[str, Sentence] = {
             "de": "die Kalibrierung der Kamera steht in den Einstellungen",
         }
     ),
+    "EXTERNAL_TRACKER": Sentence(
+        {
+            "en": "an external tracker measures in place of a camera",
+            "de": "ein externes Trackingsystem misst anstelle einer Kamera",
+        }
+    ),
     "CAMERA_CALIBRATED": Sentence({"en": "the camera is calibrated", "de": "die Kamera ist kalibriert"}),
     "CAMERA_CHECKED": Sentence(
         {

@@ -26,6 +26,7 @@ import yaml
 from server.camera_file import CameraFile, camera_file_text, read_camera_file
 from server.capture.address import mask_secrets, source_from_text
 from server.capture.jpeg_header import jpeg_size_wh_px
+from server.capture.pose_frames import PoseFrames
 from server.certificate import ExaminedSystem, Issue, PlateFile, SigningKey, certificate_of, verified
 from server.certificate.plate_file import plate_file_in, printed_plate, text_of_plate_file
 from server.cli.certify_captures import load_captures
@@ -43,7 +44,8 @@ from server.imaging.meshes import mesh_from_bytes
 from server.imaging.nifti import nifti_bytes
 from server.marker_file import marker_image
 from server.openigtlink.requests import RequestReader
-from server.openigtlink.wire import (
+from server.openigtlink_wire import (
+    TRACKED_TOOL,
     Message,
     Point,
     Status,
@@ -52,11 +54,9 @@ from server.openigtlink.wire import (
     points_content,
     points_of,
     status_content,
-    status_of,
     string_content,
     string_of,
     transform_content,
-    transform_of,
 )
 from server.pose_file import Unit, read_poses
 from server.recording.cut import cut_recording
@@ -673,6 +673,7 @@ def openigtlink() -> list[bytes]:
         "STATUS": status_content(Status(code=1, name="OK", text="all is well")),
         "STRING": string_content("GET_CAPABIL"),
         "POINT": points_content([Point(name="a", group="b", position_mm=np.ones(3))]),
+        "TDATA": TRACKED_TOOL.pack(b"DrillToTracker", 2, *np.eye(4)[:3].T.ravel()),
     }
     return [
         b"".join(
@@ -688,12 +689,15 @@ def openigtlink() -> list[bytes]:
 
 def _read_openigtlink(content: bytes) -> object:
     reader, found = RequestReader(), []
-    readers = {"TRANSFORM": transform_of, "STATUS": status_of, "STRING": string_of, "POINT": points_of}
+    readers = {"STRING": string_of, "POINT": points_of}
+    frames = PoseFrames(["x", "DrillToTracker"])
     for at in range(0, len(content), 700):
         for one in reader.feed(content[at : at + 700], now_s=0.1 * at):
             found.append(one)
             if isinstance(one, Message) and one.type in readers:
                 readers[one.type](one.content)
+            elif isinstance(one, Message):
+                frames.take(one)
     return found
 
 

@@ -78,7 +78,7 @@ class Server:
         """Publish an image, or markers seen in it, as the tracking process would; return its message."""
         self.number += 1
         preparation = self.preparation.with_case(self.adopted[-1]) if self.adopted else self.preparation
-        setup = preparation.setup or preparation.uncalibrated_setup_for((1280, 720))
+        setup = preparation.setup or preparation.setup_for((1280, 720))
         unseen = Unseen(reason=UnseenReason.NO_CANDIDATE)
         snapshot = navigate(
             setup=setup,

@@ -60,6 +60,19 @@ TOOL = {
     "radius_mm": 1,
     "length_mm": 9,
 }
+TRACKER = {
+    "transforms": ["DrillToTracker", "PatientToTracker"],
+    "sd_mm": 0.2,
+    "sd_deg": 0.2,
+    "latency_ms": 40,
+}
+
+
+def tracker_with(**changes: object) -> dict[str, object]:
+    """Settings of an external tracker; a key of None is omitted."""
+    section = {key: value for key, value in {**TRACKER, **changes}.items() if value is not None}
+    patient = {"marker": "PatientToTracker"}
+    return {"camera": {"source": "openigtlink"}, "external_tracker": section, "reference": patient}
 
 
 @pytest.mark.parametrize(
@@ -133,6 +146,29 @@ TOOL = {
         ),
         pytest.param(
             {"dicom": {"ae_title": "SEVENTEEN_LETTERS"}}, ["dicom.ae_title"], id="too-long-an-ae-title"
+        ),
+        pytest.param(
+            {"camera": {"source": "openigtlink"}}, ["'external_tracker' is missing"], id="no-tracker"
+        ),
+        pytest.param(
+            tracker_with(transforms=["TrackerToDrill", "PatientToTracker"]),
+            ["'external_tracker.transforms' lead to the frames Drill, Tracker", "one frame of the tracker"],
+            id="an-inverse-transform",
+        ),
+        pytest.param(
+            {**tracker_with(), "reference": {}},
+            ["'reference.marker' is missing"],
+            id="no-patient",
+        ),
+        pytest.param(
+            tracker_with(sd_mm=0, sd_deg=0, latency_ms=0),
+            [f"'external_tracker.{key}' is 0, allowed: a number above 0" for key in ("sd_mm", "latency_ms")],
+            id="a-tracker-without-error",
+        ),
+        pytest.param(
+            tracker_with(sd_mm=None, sd_deg=None, latency_ms=None),
+            [f"'external_tracker.{key}' is missing" for key in ("sd_mm", "sd_deg", "latency_ms")],
+            id="no-error-of-the-tracker",
         ),
         pytest.param(
             {"rehearsal": {"events": [{"kind": "earthquake", "at_s": 1}]}},

@@ -87,12 +87,12 @@ class MotionMonitor:
         )
         self._sight = self._sight.after(sightings, at_s=at_s)
         every_s = SCENE_URGENT_PERIOD_S if self._reference_is_elsewhere else SCENE_PERIOD_S
-        if at_s - self._looked_at_s >= every_s:
+        if setup.has_images and at_s - self._looked_at_s >= every_s:
             self._looked_at_s = at_s
             self._look_at_scene(image, sightings, at_s)
         reference = sightings.get(setup.reference)
         if isinstance(reference, Seen) and setup.reference not in jumped:
-            self._look_at_reference(reference, at_s)
+            self._look_at_reference(reference, at_s, has_images=setup.has_images)
         return MotionState(
             jumped=jumped,
             camera_moved=self._camera_moved_at_s > self._holds_from_s,
@@ -128,15 +128,16 @@ class MotionMonitor:
         moving = [_roomy(seen.corners_px) for seen in sightings.values() if isinstance(seen, Seen)]
         self._scene = SceneMonitor(grey, exclude_px=tuple(moving))
 
-    def _look_at_reference(self, seen: Seen, at_s: float) -> None:
+    def _look_at_reference(self, seen: Seen, at_s: float, *, has_images: bool) -> None:
         if self._reference is None:
             self._begin_reference(seen, at_s)
             return
-        # Only a scene check after the displacement can identify the moving object.
+        # Only a scene check after the displacement can identify the moving object. Nothing shows a motion of
+        # an external tracker: each displacement is supposed to be the reference's.
         is_new = self._looked_at_s > self._in_place_at_s
-        check = self._reference.check(
-            seen.camera_from_marker, self._scene_state if is_new else SceneState.UNSURE, at_s=at_s
-        )
+        scene = self._scene_state if is_new else SceneState.UNSURE
+        scene = scene if has_images else SceneState.STILL
+        check = self._reference.check(seen.camera_from_marker, scene, at_s=at_s)
         self._reference_is_elsewhere = check.images > 0
         if check.state is not ReferenceState.UNDETERMINED:
             self._reference_sways = check.state is ReferenceState.SWAYING

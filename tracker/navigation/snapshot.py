@@ -95,6 +95,8 @@ class Setup:
         min_errors_95_mm: by tool name, the minimum 95 % error on the channel with this registration, see
             `registration_check.check_setup`. Tools for which it is not known are missing.
         placed_screws: screws already placed in this vertebra.
+        has_images: whether poses are measured in images. False with an external tracker: its frame takes the
+            place of the camera's, images are blank, and nothing may be projected into them.
     """
 
     camera: CameraModel
@@ -111,6 +113,7 @@ class Setup:
     ct_id: str = ""
     min_errors_95_mm: Mapping[str, float] = field(default_factory=dict)
     placed_screws: tuple[PlacedScrew, ...] = ()
+    has_images: bool = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

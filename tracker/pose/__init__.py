@@ -1,6 +1,7 @@
 """Pose estimation of a marker from its edges and pixels, and the tool attached to it."""
 
 from tracker.pose.acceptance import OccurrenceContext, verify_occurrence
+from tracker.pose.external_tracker import ExternalTracker
 from tracker.pose.occurrence import (
     Occurrence,
     Window,
@@ -36,6 +37,7 @@ from tracker.pose.tool import ToolModel
 __all__ = [
     "DECIDED_COST",
     "EdgeFit",
+    "ExternalTracker",
     "FoundBy",
     "ImageContext",
     "Occurrence",

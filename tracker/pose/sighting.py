@@ -13,7 +13,7 @@ from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.photometric import KnownIllumination
 from tracker.pose.occurrence import side_px_of
 
-FoundBy: TypeAlias = Literal["search", "track"]
+FoundBy: TypeAlias = Literal["search", "track", "external"]
 # Corners nearer than this, in side lengths, are at the same position.
 SAME_PLACE_SIDES = 0.1
 
@@ -30,6 +30,7 @@ class UnseenReason(StrEnum):
     SCORE_TOO_LOW = "SCORE_TOO_LOW"  # the best candidate has too few of the model's edges
     TARGET_SCORE_TOO_LOW = "TARGET_SCORE_TOO_LOW"  # the best candidate has edges that the model lacks
     SHAPE_DIFFERS = "SHAPE_DIFFERS"  # its edges fit, but a part inside has inverted contrast: another shape
+    NOT_REPORTED = "NOT_REPORTED"  # an external tracker reports no valid pose of it
     MARKER_TWICE = "MARKER_TWICE"  # two prints of its shape are in view, and cannot be distinguished
 
 
@@ -49,7 +50,8 @@ class Seen:
         model_coverage_ratio: length of the model's active edges found in the image, 0..1.
         target_coverage_ratio: length found, by the length of all edges inside the occurrence, 0..1.
         fit_error_px2: mean squared distance of the common edgels to the model's edges.
-        found_by: "search" (whole image, no prior) or "track" (where it was expected).
+        found_by: "search" (whole image, no prior), "track" (where it was expected), or "external" (by an
+            external tracker: scores are NaN, and corners are missing).
         delta_chi2: chi-square of the flipped planar solution minus that of this pose, over this and previous
             images; infinite where no other solution fits.
         systematic_residual_ratio: share of the variance of the photometric residuals that is not image

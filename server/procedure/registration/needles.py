@@ -6,6 +6,7 @@ import numpy as np
 
 from server.errors import CaptureError
 from server.live import LiveHub
+from server.procedure.images_in_use import reject_without_images
 from server.procedure.registration.context import RegistrationContext, RegistrationContextFinder
 from server.procedure.registration.needle_records import (
     NeedleRequest,
@@ -60,11 +61,12 @@ class NeedleStep:
         """Return the newest image with the planned needles.
 
         Raises:
-            SetupOrderError: NO_CASE_OPEN, or the code of a missing earlier step.
+            SetupOrderError: NO_CASE_OPEN, NO_CAMERA_IN_USE, or the code of a missing earlier step.
             PlanError: VERTEBRA_UNKNOWN, LANDMARK_UNKNOWN, REFERENCE_MISSING.
             CaptureError: NO_PICTURE.
             CalibrationError: CAMERA_NOT_CALIBRATED.
         """
+        reject_without_images(self._hub)
         context = self._contexts.find(vertebra=order.vertebra, tool=None)
         newest = self._hub.newest
         if newest is None or newest.image is None or newest.snapshot is None:

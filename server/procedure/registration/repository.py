@@ -70,7 +70,9 @@ class RegistrationRepository:
                 {"vertebra": name, "unregistered": name or "the vertebra of the active channel"},
             )
         return StoredRegistration(
-            record=registration_from_document(document, reference=self._defaults.reference),
+            record=registration_from_document(
+                document, reference=self._defaults.reference, has_images=self._defaults.has_images
+            ),
             document=document,
             validity=self._store.validity(document),
         )

@@ -45,6 +45,7 @@ class SetupDefaults:
     Attributes:
         source: name of the camera source.
         has_camera: whether they provide a camera calibration.
+        has_images: whether the source is a camera; an external tracker needs no calibration.
         has_plan: whether a rehearsal provides its own plan and registration, used until a channel of the case
             is selected.
         tools: names of the configured tools.
@@ -56,6 +57,7 @@ class SetupDefaults:
     max_rms_px: float = CalibrationConfig().max_rms_px
     reference: str = ""
     has_camera: bool = False
+    has_images: bool = True
     has_plan: bool = False
     tools: frozenset[str] = frozenset()
 
@@ -145,7 +147,9 @@ class Procedure:
         if document is None:
             return None
         try:
-            record = registration_from_document(document, reference=self._defaults.reference)
+            record = registration_from_document(
+                document, reference=self._defaults.reference, has_images=self._defaults.has_images
+            )
         except NavigationError:
             return None
         return confirmation_prompt(
@@ -166,6 +170,8 @@ class Procedure:
             return None
 
     def _camera(self, case_id: str) -> Finding:
+        if not self._defaults.has_images:
+            return Finding(state=StepState.DONE, reason=reason("EXTERNAL_TRACKER"))
         found = self._found(
             case_id, DocumentKind.CAMERA, MAIN_CAMERA, missing=reason("CAMERA_NOT_CALIBRATED")
         )
@@ -266,7 +272,9 @@ class Procedure:
         if isinstance(found, Finding):
             return found
         try:
-            record = registration_from_document(found, reference=self._defaults.reference)
+            record = registration_from_document(
+                found, reference=self._defaults.reference, has_images=self._defaults.has_images
+            )
         except NavigationError as error:
             return _unusable(found, error)
         numbers = {
@@ -292,7 +300,9 @@ class Procedure:
         if vertebra is None or registration is None:
             return Finding(state=StepState.MISSING, reason=reason("NOTHING_TO_CHECK"))
         try:
-            record = registration_from_document(registration, reference=self._defaults.reference)
+            record = registration_from_document(
+                registration, reference=self._defaults.reference, has_images=self._defaults.has_images
+            )
         except NavigationError as error:
             return _unusable(registration, error)
         newest = self._store.newest_heading(case_id, DocumentKind.CHECK, check_name(vertebra))

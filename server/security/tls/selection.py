@@ -38,8 +38,8 @@ def reject_unsafe(config: Config) -> None:
     """Reject unsafe settings; call it before anything is started.
 
     Raises:
-        ConfigError: SIGN_IN_NEEDED, TLS_HALF, OPENIGTLINK_UNENCRYPTED, DICOM_UNENCRYPTED,
-            HUB_UNENCRYPTED.
+        ConfigError: SIGN_IN_NEEDED, TLS_HALF, OPENIGTLINK_UNENCRYPTED, TRACKER_UNENCRYPTED,
+            DICOM_UNENCRYPTED, HUB_UNENCRYPTED.
     """
     host, tls = config.server.host, config.server.tls
     if config.security.sign_in == "off" and not is_loopback(_bracketed(host)):
@@ -67,6 +67,16 @@ def reject_unsafe(config: Config) -> None:
             "Set openigtlink.host to 127.0.0.1, or openigtlink.unencrypted to exactly 'anybody who reaches "
             "this port reads the poses'.",
             {"host": link.host},
+        )
+    tracker = config.external_tracker
+    if tracker is not None and tracker.unencrypted is None and not is_loopback(_bracketed(tracker.host)):
+        raise ConfigError(
+            "TRACKER_UNENCRYPTED",
+            f"external_tracker.host is {tracker.host}, another computer, but OpenIGTLink has neither "
+            "encryption nor sign-in: whoever is on the way could change the poses",
+            "Run Plus on this computer, use an SSH tunnel, or set external_tracker.unencrypted to exactly "
+            "'anybody on this network can change the poses'.",
+            {"host": tracker.host},
         )
     receive = config.dicom.receive
     is_plain = not receive.tls and receive.unencrypted is None

@@ -627,6 +627,36 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "de": "{source} ist geöffnet, sendete aber {limit_s:g} s lang kein Bild",
         },
     ),
+    "TRACKER_NOT_CONFIGURED": (
+        {
+            "en": "the source is openigtlink, but the settings have no external_tracker",
+            "de": "die Quelle ist openigtlink, aber in den Einstellungen fehlt external_tracker",
+        },
+    ),
+    "TRACKER_UNREACHABLE": (
+        {
+            "en": "the tracker at {place} cannot be reached: {library_error}",
+            "de": "das Trackingsystem unter {place} ist nicht erreichbar: {library_error}",
+        },
+    ),
+    "TRACKER_CLOSED": (
+        {
+            "en": "the tracker at {place} closed the connection",
+            "de": "das Trackingsystem unter {place} hat die Verbindung beendet",
+        },
+    ),
+    "TRACKER_SILENT": (
+        {
+            "en": "the tracker at {place} sent no new pose of {bodies} for {limit_s:g} s",
+            "de": "das Trackingsystem unter {place} sendete {limit_s:g} s lang keine neue Lage von {bodies}",
+        },
+    ),
+    "TRACKER_MESSAGE_INVALID": (
+        {
+            "en": "a message of the tracker at {place} is not valid: {reason}",
+            "de": "eine Nachricht des Trackingsystems unter {place} ist ungültig: {reason}",
+        },
+    ),
     "CAMERA_NOT_TRIGGERED": (
         {
             "en": "{source} waits for a pulse on {trigger}, but received none for {limit_s:g} s",

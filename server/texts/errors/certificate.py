@@ -218,6 +218,10 @@ CERTIFICATE: Mapping[str, tuple[Text, ...]] = {
             "de": "die Kamera ist nicht kalibriert, oder Schärfe oder Zoom wurde verstellt: kein Zertifikat "
             "gilt",
         },
+        {
+            "en": "the poses come from an external tracker: no certificate of a camera applies",
+            "de": "die Lagen kommen von einem externen Trackingsystem: kein Zertifikat einer Kamera gilt",
+        },
     ),
     "CERTIFICATE_PERIOD_INVALID": (
         {

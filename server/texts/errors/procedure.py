@@ -140,6 +140,19 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "de": "{markers} Marker werden verfolgt, höchstens {allowed}",
         },
     ),
+    "NO_CAMERA_IN_USE": (
+        {
+            "en": "this step needs images of a camera, but the poses come from an external tracker",
+            "de": "dieser Schritt braucht Bilder einer Kamera, aber die Lagen kommen von einem externen "
+            "Trackingsystem",
+        },
+    ),
+    "MARKER_WITHOUT_IMAGE": (
+        {
+            "en": "'{marker}' is a rigid body of an external tracker, which has no image",
+            "de": "„{marker}“ ist ein Starrkörper eines externen Trackingsystems und hat kein Bild",
+        },
+    ),
     "MARKER_OF_SETTINGS": (
         {
             "en": "the marker '{marker}' is defined in the settings and cannot be changed in a case",

@@ -346,6 +346,12 @@ REGISTRATION: Mapping[str, tuple[Text, ...]] = {
             "Einstellungen {reference_setting}",
         },
     ),
+    "REGISTERED_TO_CAMERA": (
+        {
+            "en": "{title} is anchored to a camera, but an external tracker measures now",
+            "de": "{title} bezieht sich auf eine Kamera, aber jetzt misst ein externes Trackingsystem",
+        },
+    ),
     "REGISTER_MISSING": (
         {"en": "{unregistered} is not registered", "de": "{unregistered} ist nicht registriert"},
     ),

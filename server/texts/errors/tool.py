@@ -32,6 +32,12 @@ TOOL: Mapping[str, tuple[Text, ...]] = {
             "mm",
         },
     ),
+    "PIVOT_TIP_FAR": (
+        {
+            "en": "the tip lies {tip_mm:.0f} mm from the marker, allowed {allowed_mm:.0f} mm",
+            "de": "die Spitze liegt {tip_mm:.0f} mm vom Marker entfernt, erlaubt {allowed_mm:.0f} mm",
+        },
+    ),
     "SPIN_AXIS_UNCERTAIN": (
         {
             "en": "the axis has a standard deviation of {axis_sd_deg:.2f} degrees, allowed {allowed_deg:.2f}",

@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
+from server import openigtlink_wire as wire
 from server.config import OpenIgtLinkConfig
-from server.openigtlink import wire
 from server.openigtlink.contents import InstantContents, contents_of
-from server.openigtlink.wire import Message
+from server.openigtlink_wire import Message
 from tests.server.conftest import make_instant
 from tracker.navigation import NavigationSnapshot
 

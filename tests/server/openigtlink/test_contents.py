@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from server import openigtlink_wire as wire
 from server.config import OpenIgtLinkConfig
 from server.live import Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
-from server.openigtlink import wire
 from server.openigtlink.contents import CODES, DeviceContent, contents_of
 from tests.server.conftest import make_instant, make_snapshot
 from tests.server.openigtlink.spoken import contents

@@ -4,10 +4,10 @@ from math import inf
 
 import pytest
 
+from server import openigtlink_wire as wire
 from server.config import LimitsConfig
-from server.openigtlink import wire
 from server.openigtlink.feed import Feed
-from server.openigtlink.wire import Message
+from server.openigtlink_wire import Message
 from tests.server.conftest import make_snapshot
 from tests.server.openigtlink.spoken import contents, said
 

@@ -9,12 +9,13 @@ from contextlib import suppress
 import pyigtl
 import pytest
 
+from server import openigtlink_wire as wire
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import Instant, LiveHub
-from server.openigtlink import OpenIgtLinkServer, wire
+from server.openigtlink import OpenIgtLinkServer
 from server.openigtlink import server as link_server
-from server.openigtlink.wire import Message
+from server.openigtlink_wire import Message
 from tests.served import served
 from tests.server.conftest import make_instant, make_snapshot
 from tests.server.openigtlink.spoken import Said, said

@@ -2,9 +2,9 @@
 
 import pytest
 
-from server.openigtlink import wire
-from server.openigtlink.requests import BURST, OversizeError, RequestReader, TooManyRequestsError
-from server.openigtlink.wire import ChecksumError, Message, WireError
+from server import openigtlink_wire as wire
+from server.openigtlink.requests import BURST, RequestReader, TooManyRequestsError
+from server.openigtlink_wire import ChecksumError, Message, OversizeError, WireError
 
 
 def request(kind: str, content: bytes = b"", version: int = 1) -> bytes:

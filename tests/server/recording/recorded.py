@@ -1,6 +1,6 @@
 """A few images of the rehearsal, tracked and recorded through the ring, without a process."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -30,6 +30,7 @@ from server.recording.process import (
 )
 from server.recording_file import WriterLimits
 from server.setup import Preparation, build_setup
+from tracker.geometry import Camera, Marker, Rigid
 from tracker.navigation.alarms import AlarmSnapshot
 
 BEGIN_S, RATE_HZ = 14.0, 30.0
@@ -95,6 +96,7 @@ class RecordedTheatre:
         read: bool = True,
         image: Image | None = None,
         is_predicted: bool = False,
+        poses: Mapping[str, Rigid[Camera, Marker]] | None = None,
     ) -> None:
         """Track an image, let the alarms see it, and let the recording read."""
         self.now_s = BEGIN_S + number / RATE_HZ
@@ -109,6 +111,7 @@ class RecordedTheatre:
             captured_at_s=self.now_s,
             source_time_s=0.0,
             is_predicted=is_predicted,
+            poses=poses,
         )
         snapshot = self.tracking.process(shot, skipped_images=0, clock=lambda: 0.0)
         self._tracked += 1

@@ -19,8 +19,11 @@ from server.recording.process import follow_server
 from server.recording.replay import check_recording
 from server.recording_file import RecordingReader, Topic
 from server.recording_file.codec import Json
+from server.setup import build_setup
+from tests.server.loop.test_external_tracking import CONFIG, DRILL, poses
 from tests.server.recording.recorded import RecordedTheatre, made_config
 from tests.server.recording_file.written import made_writer
+from tracker.geometry import Rigid
 from tracker.pose import Seen
 
 Make = Callable[..., RecordedTheatre]
@@ -39,6 +42,28 @@ def test_what_was_recorded_in_the_middle_of_a_stream_is_replayed_to_the_last_dig
     assert (report.unchecked_images, report.missing_images, report.unchecked_steps) == (0, 0, 0)
     assert report.remarks == []
     assert report.changed_versions == []
+
+
+def test_poses_of_an_external_tracker_are_replayed_without_images(tmp_path: Path) -> None:
+    theatre = RecordedTheatre(
+        path=tmp_path / "case.mcap",
+        images=[np.zeros((360, 640, 3), np.uint8)] * 8,
+        preparation=build_setup(CONFIG),
+        config=CONFIG,
+    )
+    theatre.begin()
+    for number in range(8):
+        moved = poses(depth_mm=1.7 * number, beside_mm=np.pi)
+        reported = {
+            name: Rigid.from_matrix(one) for name, one in moved.items() if number != 4 or name != DRILL
+        }
+        theatre.track(number, poses=reported)
+    theatre.end()
+    report = check_recording(theatre.path)
+    assert report.is_equal, (report.poses.first, report.alarms.first)
+    assert report.images == 8
+    kinds = [one["markers"][0]["sighting"]["kind"] for one in texts(theatre.path, Topic.SNAPSHOT)]
+    assert kinds.count("unseen") == 1
 
 
 def test_the_file_has_poses_transitions_and_acknowledgements(recorded: Path) -> None:

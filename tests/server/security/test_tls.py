@@ -82,6 +82,17 @@ def test_poses_leave_this_computer_unencrypted_only_where_the_settings_say_so_in
         Config.model_validate({"openigtlink": {**shared, "unencrypted": "yes"}})
 
 
+def test_poses_come_from_another_computer_only_where_the_settings_say_so_in_words() -> None:
+    names = ["DrillToTracker", "PatientToTracker"]
+    shared = {"host": "192.0.2.1", "transforms": names, "sd_mm": 0.2, "sd_deg": 0.2, "latency_ms": 40.0}
+    with pytest.raises(ConfigError) as reported:
+        reject_unsafe(Config.model_validate({"external_tracker": shared}))
+    assert reported.value.code == "TRACKER_UNENCRYPTED"
+    said = {**shared, "unencrypted": "anybody on this network can change the poses"}
+    for allowed in (said, {**shared, "host": "127.0.0.1"}, None):
+        reject_unsafe(Config.model_validate({"external_tracker": allowed}))
+
+
 def test_cts_arrive_unencrypted_only_where_the_settings_say_so_in_words() -> None:
     shared = {"port": 11112, "host": "192.0.2.1"}
     with pytest.raises(ConfigError) as reported:

@@ -31,6 +31,9 @@ from tracker.pose.tool.poses import Poses
 # play.
 MIN_SD_MM = 0.1
 MAX_ROUNDS = 30
+# Poses that are inverted by mistake fit as well, with the pivot in the tracker's frame in place of the tip:
+# as far away as the tracker, which is about 1 m for an optical one. Long pointers have 400 mm.
+MAX_TIP_DISTANCE_MM = 600.0
 PIVOT_REMEDY = (
     "Hold the tip in the divot, tilt the tool slowly to all sides by 20 degrees and more, "
     "and calibrate again."
@@ -107,6 +110,16 @@ class PivotCalibration:
                     f"allowed {gate.max_tip_sd_mm:.2f} mm",
                     "Take more poses, tilt farther to all sides, and calibrate again.",
                     {"tip_sd_mm": self.tip_sd_mm, "allowed_mm": gate.max_tip_sd_mm},
+                )
+            )
+        tip_mm = float(np.linalg.norm(self.tip_in_marker_mm))
+        if tip_mm > MAX_TIP_DISTANCE_MM:
+            found.append(
+                CalibrationError(
+                    "PIVOT_TIP_FAR",
+                    f"the tip lies {tip_mm:.0f} mm from the marker, allowed {MAX_TIP_DISTANCE_MM:.0f} mm",
+                    "Check that the poses lead from the marker to camera or tracker, and are not inverted.",
+                    {"tip_mm": tip_mm, "allowed_mm": MAX_TIP_DISTANCE_MM},
                 )
             )
         compared = int(self.used.sum()) + len(

@@ -60,7 +60,9 @@ function MarkerRow({
       <Table.Td>{stale ? texts.markers.unknown : state}</Table.Td>
       <Table.Td className="figure">{stale || score === null ? "—" : formatPercent(score)}</Table.Td>
       <Table.Td className="figure">
-        {stale || !seen ? "—" : formatPercent(sighting.target_score_ratio)}
+        {stale || !seen || sighting.target_score_ratio === null
+          ? "—"
+          : formatPercent(sighting.target_score_ratio)}
       </Table.Td>
     </Table.Tr>
   );

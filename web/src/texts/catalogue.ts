@@ -79,7 +79,7 @@ export interface Texts {
     "title" | "none" | "name" | "state" | "seen" | "unseen" | "score" | "target" | "unknown",
     string
   >;
-  foundBy: Record<"search" | "track", string>;
+  foundBy: Record<"search" | "track" | "external", string>;
   header: Record<
     "case" | "source" | "camera" | "server" | "searchTime" | "rate" | "noRegistration" | "registeredBy",
     string

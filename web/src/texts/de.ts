@@ -114,7 +114,7 @@ export const de: Texts = {
     target: "Target-Score",
     unknown: "unbekannt",
   },
-  foundBy: { search: "durch Suche gefunden", track: "verfolgt" },
+  foundBy: { search: "durch Suche gefunden", track: "verfolgt", external: "vom externen Trackingsystem" },
   header: {
     case: "Kanal",
     source: "Quelle",

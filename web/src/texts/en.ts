@@ -116,7 +116,7 @@ export const en: Texts = {
     target: "Target score",
     unknown: "not known",
   },
-  foundBy: { search: "found by search", track: "tracked" },
+  foundBy: { search: "found by search", track: "tracked", external: "by an external tracker" },
   header: {
     case: "Channel",
     source: "Source",

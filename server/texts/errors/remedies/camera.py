@@ -9,6 +9,40 @@ CAMERA: tuple[Text, ...] = (
         "bleiben.",
     },
     {
+        "en": "Add the section external_tracker to the settings.",
+        "de": "Den Abschnitt external_tracker in den Einstellungen ergänzen.",
+    },
+    {
+        "en": "Start Plus, and check external_tracker.host and external_tracker.port; it is retried "
+        "automatically.",
+        "de": "Plus starten und external_tracker.host und external_tracker.port prüfen; es wird automatisch "
+        "erneut versucht.",
+    },
+    {
+        "en": "Check Plus and the tracker; it is reconnected automatically.",
+        "de": "Plus und das Trackingsystem prüfen; es wird automatisch neu verbunden.",
+    },
+    {
+        "en": "Bring drill and patient into its view, and check that Plus sends transforms of these names; "
+        "it is reconnected automatically.",
+        "de": "Bohrer und Patient in sein Messfeld bringen und prüfen, dass Plus Transformationen mit diesen "
+        "Namen sendet; es wird automatisch neu verbunden.",
+    },
+    {
+        "en": "Let it send only TRANSFORM or TDATA, as rigid motions in mm with time stamps; it is "
+        "reconnected automatically.",
+        "de": "Nur TRANSFORM oder TDATA senden lassen, als starre Bewegungen in mm mit Zeitstempeln; es wird "
+        "automatisch neu verbunden.",
+    },
+    {
+        "en": "Use a step without images, or start with a camera as the source.",
+        "de": "Einen Schritt ohne Bilder wählen, oder mit einer Kamera als Quelle starten.",
+    },
+    {
+        "en": "GET /api/markers states which markers have one.",
+        "de": "GET /api/markers gibt an, welche Marker eines haben.",
+    },
+    {
         "en": "Set the camera to the size it was calibrated at, or calibrate it at this size.",
         "de": "Die Kamera auf die Größe der Kalibrierung stellen, oder sie mit dieser Größe kalibrieren.",
     },

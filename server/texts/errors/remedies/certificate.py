@@ -121,6 +121,10 @@ CERTIFICATE: tuple[Text, ...] = (
         "de": "Den Genauigkeitstest durchführen und sein Zertifikat installieren.",
     },
     {
+        "en": "Rely on the accuracy that the maker of the tracker states.",
+        "de": "Die Genauigkeit gilt, die der Hersteller des Trackingsystems angibt.",
+    },
+    {
         "en": "Calibrate the camera, or restore focus and zoom.",
         "de": "Die Kamera kalibrieren oder Schärfe und Zoom wiederherstellen.",
     },

@@ -32,6 +32,11 @@ TOOL: tuple[Text, ...] = (
         "de": "Mehr Lagen aufnehmen, weiter nach allen Seiten schwenken und neu kalibrieren.",
     },
     {
+        "en": "Check that the poses lead from the marker to camera or tracker, and are not inverted.",
+        "de": "Prüfen, dass die Lagen vom Marker zur Kamera oder zum Trackingsystem führen und nicht "
+        "invertiert sind.",
+    },
+    {
         "en": "The tip slipped or was moved: calibrate again in one divot.",
         "de": "Die Spitze ist abgerutscht oder wurde versetzt: in einer einzigen Mulde neu kalibrieren.",
     },

@@ -208,6 +208,17 @@ def test_the_gate_states_failures_with_both_numbers(hand: Hand, code: str) -> No
     assert all("0.80" in failure.message and failure.remedy for failure in failures)
 
 
+def test_inverted_poses_fit_and_are_rejected_by_the_distance_of_their_tip() -> None:
+    poses = pivoted(Hand(pivot_mm=(100.0, 50.0, 1000.0))).poses
+    rotations = poses.rotations.transpose(0, 2, 1)
+    moved = -np.einsum("nij,nj->ni", rotations, poses.translations_mm)
+    found = pivot_calibration(Poses(rotations=rotations, translations_mm=moved))
+    (failure,) = found.failures(ToolGate(max_tip_sd_mm=100.0, max_rms_3d_mm=100.0))
+    assert failure.code == "PIVOT_TIP_FAR"
+    # The tip of an inverted pose is the pivot as the tracker has it.
+    np.testing.assert_allclose(found.tip_in_marker_mm, [100.0, 50.0, 1000.0], atol=5.0)
+
+
 def test_two_divots_are_distinguished_from_one() -> None:
     here, there = pivoted(Hand(count=33)), pivoted(Hand(count=27, pivot_mm=(50.0, -20.0, 500.0)), seed=1)
     both = Poses(

@@ -45,16 +45,20 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
       })
       .then(onRemoved);
   };
+  // A rigid body of an external tracker has no picture.
+  const isPrinted = marker.side_mm !== null;
   // A new picture under the same name is another document and must not come from the browser's cache.
   const address = `/api/markers/${marker.name}/picture?document=${marker.document_id ?? "settings"}`;
   return (
     <li className="marker-row" data-testid={`marker-${marker.name}`} data-seen={seen !== null}>
-      <img src={address} alt={`${texts.camera.pictureOf} ${marker.name}`} width={112} height={112} />
+      {isPrinted && (
+        <img src={address} alt={`${texts.camera.pictureOf} ${marker.name}`} width={112} height={112} />
+      )}
       <div className="stack grow">
         <p>
           <strong className="case-name">{marker.name}</strong>{" "}
           <span className="soft">
-            {texts.camera.side} {marker.side_mm} mm ·{" "}
+            {isPrinted && `${texts.camera.side} ${String(marker.side_mm)} mm · `}
             {marker.document_id === null ? (
               texts.camera.ofSettings
             ) : (
@@ -65,16 +69,20 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
           </span>
         </p>
         <p className={seen === null ? "bad" : "good"}>{state}</p>
-        <ScoreBar
-          name={texts.markers.score}
-          ratio={seen?.score_ratio ?? (sighting?.kind === "unseen" ? sighting.best_score_ratio : null)}
-          acceptRatio={gate.accept_score_ratio}
-        />
-        <ScoreBar
-          name={texts.markers.target}
-          ratio={seen?.target_score_ratio ?? null}
-          acceptRatio={gate.accept_target_score_ratio}
-        />
+        {isPrinted && (
+          <>
+            <ScoreBar
+              name={texts.markers.score}
+              ratio={seen?.score_ratio ?? (sighting?.kind === "unseen" ? sighting.best_score_ratio : null)}
+              acceptRatio={gate.accept_score_ratio}
+            />
+            <ScoreBar
+              name={texts.markers.target}
+              ratio={seen?.target_score_ratio ?? null}
+              acceptRatio={gate.accept_target_score_ratio}
+            />
+          </>
+        )}
       </div>
       {marker.document_id !== null && (
         <ConfirmButton confirmLabel={texts.camera.removeSure} loading={removing.busy} onConfirm={remove}>

@@ -44,6 +44,7 @@ export const reasonsDe: Pick<Texts, "cause" | "unseen"> = {
     SCORE_TOO_LOW: "zu wenige seiner Kanten sind sichtbar",
     TARGET_SCORE_TOO_LOW: "Kanten sichtbar, die er nicht hat",
     SHAPE_DIFFERS: "ähnliches Objekt mit anderem Muster",
+    NOT_REPORTED: "das Trackingsystem meldet keine gültige Lage",
     MARKER_TWICE: "zweimal im Bild: alle bis auf einen abdecken oder entfernen",
   },
 };

@@ -31,6 +31,7 @@ export const reasonsEn: Pick<Texts, "cause" | "unseen"> = {
     SCORE_TOO_LOW: "too few of its edges are visible",
     TARGET_SCORE_TOO_LOW: "edges are visible that it does not have",
     SHAPE_DIFFERS: "a similar object with another pattern",
+    NOT_REPORTED: "the tracker reports no valid pose",
     MARKER_TWICE: "twice in view: cover or remove all but one",
   },
 };

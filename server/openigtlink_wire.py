@@ -7,7 +7,7 @@ sockets nor clocks.
 
 import math
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
 
@@ -20,12 +20,15 @@ EXTENDED_HEADER = struct.Struct(">HHII")
 METADATA_COUNT, METADATA_ENTRY = struct.Struct(">H"), struct.Struct(">HHI")
 TRANSFORM, STATUS_HEAD, STRING_HEAD = struct.Struct(">12f"), struct.Struct(">Hq20s"), struct.Struct(">HH")
 POINT = struct.Struct(">64s32s4B3ff20s")
+TRACKED_TOOL, START_TRACKING = struct.Struct(">20sBx12f"), struct.Struct(">i32s")
 HEADER_BYTES = HEADER.size
 TYPE_BYTES, DEVICE_BYTES = 12, 20
 VERSIONS = (1, 2)
 # IANA's numbers of the character sets.
 ASCII, UTF_8 = 3, 106
 MAX_STRING_BYTES = 0xFFFF
+# Types of TDATA that have a position and all three angles; a 3D tool has no rotation, a 5D tool lacks one.
+TYPES_6D = frozenset({1, 2})
 # Yellow, as points are commonly shown.
 POINT_COLOUR = (255, 255, 0, 255)
 
@@ -40,6 +43,10 @@ class WireError(Exception):
 
 class ChecksumError(WireError):
     """The body does not match its checksum."""
+
+
+class OversizeError(WireError):
+    """The body exceeds the maximum size."""
 
 
 class StatusCode(IntEnum):
@@ -211,6 +218,55 @@ def unpack(header: Header, body: bytes) -> Message:
     )
 
 
+@dataclass(slots=True, kw_only=True)
+class MessageReader:
+    """Parses the bytes of one connection. After a `WireError` the position in the stream is unknown.
+
+    Attributes:
+        max_body_bytes: maximum length of a body.
+    """
+
+    max_body_bytes: int
+    _waiting: bytearray = field(default_factory=bytearray)
+    _header: Header | None = None
+
+    def feed(self, content: bytes) -> Iterator[Message | ChecksumError]:
+        """Yield each complete message, or the error of a message with a damaged body.
+
+        Raises:
+            WireError: The start of the next message is unknown.
+            OversizeError: A header announces a body that is too long.
+        """
+        self._waiting += content
+        while (message := self._next()) is not None:
+            yield message
+
+    def _next(self) -> Message | ChecksumError | None:
+        if self._header is None:
+            if len(self._waiting) < HEADER_BYTES:
+                return None
+            header = unpack_header(self._taken(HEADER_BYTES))
+            if header.body_bytes > self.max_body_bytes:
+                raise OversizeError(
+                    f"the body of {header.type} has {header.body_bytes} bytes, "
+                    f"the maximum is {self.max_body_bytes}"
+                )
+            self._header = header
+        if len(self._waiting) < self._header.body_bytes:
+            return None
+        header, self._header = self._header, None
+        try:
+            return unpack(header, self._taken(header.body_bytes))
+        except ChecksumError as error:
+            # The length was correct, so that the start of the next message is known.
+            return error
+
+    def _taken(self, count: int) -> bytes:
+        taken = bytes(self._waiting[:count])
+        del self._waiting[:count]
+        return taken
+
+
 def transform_content(matrix: Array) -> bytes:
     """Return the content of TRANSFORM of a homogeneous (4, 4) matrix, translation in mm."""
     return TRANSFORM.pack(*np.asarray(matrix, dtype=np.float64)[:3].T.ravel())
@@ -223,9 +279,38 @@ def transform_of(content: bytes) -> Array:
         WireError: another length.
     """
     _reject_length("TRANSFORM", content, TRANSFORM.size)
+    return _matrix_of(TRANSFORM.unpack(content))
+
+
+def _matrix_of(numbers: Sequence[float]) -> Array:
+    """Return the matrix of the 12 numbers on the wire: three columns of the rotation, then the position."""
     matrix = np.eye(4)
-    matrix[:3] = np.array(TRANSFORM.unpack(content)).reshape(4, 3).T
+    matrix[:3] = np.array(numbers).reshape(4, 3).T
     return matrix
+
+
+def tracked_tools_of(content: bytes) -> dict[str, Array]:
+    """Return the homogeneous (4, 4) matrices of TDATA by name; tools without all six degrees are omitted.
+
+    Raises:
+        WireError: Its length is not a multiple of the size of a tool, a name cannot be decoded, or comes
+            twice.
+    """
+    if len(content) % TRACKED_TOOL.size:
+        raise WireError(f"TDATA has {len(content)} bytes, expected a multiple of {TRACKED_TOOL.size}")
+    tools: dict[str, Array] = {}
+    for name_bytes, kind, *numbers in TRACKED_TOOL.iter_unpack(content):
+        name = _text(name_bytes)
+        if name in tools:
+            raise WireError(f"TDATA has the tool '{name}' twice")
+        if kind in TYPES_6D:
+            tools[name] = _matrix_of(numbers)
+    return tools
+
+
+def start_tracking_content(resolution_ms: int) -> bytes:
+    """Return the content of STT_TDATA, which requests TDATA at most this often."""
+    return START_TRACKING.pack(resolution_ms, b"")
 
 
 def status_content(status: Status) -> bytes:

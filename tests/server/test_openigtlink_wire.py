@@ -7,8 +7,8 @@ import pyigtl
 import pytest
 from pyigtl.messages import CRC64, MessageBase
 
-from server.openigtlink import wire
-from server.openigtlink.wire import ChecksumError, Message, Point, Status, WireError
+from server import openigtlink_wire as wire
+from server.openigtlink_wire import ChecksumError, Message, Point, Status, WireError
 from tracker.geometry import Rigid, Tool, Vertebra
 
 AT_S = 1_764_130_000.25
