@@ -12,8 +12,6 @@ from server.alarms import AlarmService
 from server.api.accuracy import accuracy_router
 from server.api.alarms import alarms_router
 from server.api.audit import audit_router
-from server.api.body_drain import BodyDrainMiddleware
-from server.api.body_limits import BodyLimitMiddleware
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.certificates import certificates_router
@@ -21,20 +19,20 @@ from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router
 from server.api.documentation import DocumentedApi, documentation_router
 from server.api.drillings import drillings_router
-from server.api.errors import install_errors, rejections
+from server.api.errors import rejections
 from server.api.gates import gates_router
-from server.api.guide import is_guide, mount_guide
+from server.api.guards import add_guards
+from server.api.guide import mount_guide
 from server.api.health import health_router
 from server.api.jobs import jobs_router
 from server.api.labels import labels_router
-from server.api.language import LanguageMiddleware
 from server.api.latency import latency_router
 from server.api.live import live_router
 from server.api.markers import markers_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.navigation_ct import navigation_ct_router
 from server.api.needles import needles_router
-from server.api.page import mount_page, page_addresses, page_folder
+from server.api.page import mount_page, page_folder
 from server.api.people import people_router
 from server.api.placements import placements_router
 from server.api.plan import plan_router
@@ -70,7 +68,7 @@ from server.recording.review import RecordingReview
 from server.recording.review_scenes import ReviewScenes
 from server.recording.service import RecordingService
 from server.scene import Admit, mount_scene
-from server.security import HostGuard, KnownHosts, PeopleService, SecurityHeaders, SessionGuard
+from server.security import PeopleService
 from server.sinks import Sinks
 from server.store import CaseStore
 from server.stream.connection import abort_connection
@@ -171,7 +169,7 @@ def create_app(parts: AppParts) -> FastAPI:
         dependencies=[Depends(set_requester)],
         responses=rejections(401, 403, 413, 421, 429, 500),
     )
-    _add_guards(app, parts)
+    add_guards(app, server=config.server, people=parts.people)
     app.state.pictures = pictures
     app.state.review_scenes = None
     _add_streams(app, parts, viewers, video, view)
@@ -228,25 +226,6 @@ def _mount_files(app: FastAPI, config: Config) -> None:
     """Mount the guide, then the page, which matches every path."""
     mount_guide(app)
     mount_page(app, camera=config.camera.name, folder=page_folder())
-
-
-def _add_guards(app: FastAPI, parts: AppParts) -> None:
-    """Add the middleware; the last one added runs first."""
-    server = parts.config.server
-    is_page = page_addresses(page_folder())
-    install_errors(app)
-    app.add_middleware(BodyLimitMiddleware)
-    if parts.people is not None:
-        app.add_middleware(
-            SessionGuard,
-            people=parts.people,
-            is_page=lambda path: is_page(path) or is_guide(path),
-            behind_proxy=server.behind_proxy is not None,
-        )
-    app.add_middleware(HostGuard, hosts=KnownHosts.of(server.host))
-    app.add_middleware(SecurityHeaders)
-    app.add_middleware(BodyDrainMiddleware)
-    app.add_middleware(LanguageMiddleware)
 
 
 def _add_people(app: FastAPI, parts: AppParts) -> None:

@@ -14,4 +14,7 @@ publisher.py   the theatre's process
 theatre.py     what the web process gives to it
 watcher.py     the hub: newest message of each theatre, and how old it is at most
 theatres.py    list of all theatres
+pictures.py    picture with the live message of its image
+relay.py       live message as the hub sends it to pages
+opened.py      theatres that somebody at the hub has opened
 """

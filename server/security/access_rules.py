@@ -53,6 +53,16 @@ WS      /scene
 WS      /scene/
 """
 
+# Of the hub, which restricts each to the theatres that the account sees (`server/api/hub.py`).
+SEEN_AT_THE_HUB = """
+GET     /api/theatres
+GET     /api/theatres/{theatre}/picture
+GET     /at/{theatre}/api/dashboard
+GET     /at/{theatre}/api/live
+WS      /at/{theatre}/ws/live
+WS      /at/{theatre}/ws/view
+"""
+
 # All read access; the documentation reveals more of the server than a viewer needs.
 SEEN_BY_OVERSEERS = """
 GET     /metrics
@@ -331,6 +341,7 @@ def _rules() -> Iterable[Rule]:
         (PUBLIC, EVERYBODY),
         (OWN, EVERYBODY),
         (SEEN_BY_WATCHERS, WATCHERS),
+        (SEEN_AT_THE_HUB, WATCHERS),
         (SEEN_BY_OVERSEERS, OVERSEERS),
         (DONE_IN_THEATRE, THEATRE),
         (DONE_BY_OVERSEERS, OVERSEERS),

@@ -1,5 +1,6 @@
 // Connects the pure parts to the browser: WebSockets, timers, requests, visibility.
 import { type DashboardMessage, getDashboard, getLive } from "../api";
+import { OPENED } from "../hub/openedTheatre";
 import { Rejection } from "../rest/client";
 import { storedPictureChoice, storePictureChoice } from "./storedPictureChoice";
 import { MessageConnection } from "./messageConnection";
@@ -34,7 +35,8 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     const requestedNowMs = performance.now();
     const timeout = AbortSignal.any([signal, AbortSignal.timeout(ASK_TIMEOUT_MS)]);
     try {
-      if (live.hasMessage) {
+      // The hub answers for itself; only a recent message of the theatre is a sign of the theatre.
+      if (live.hasMessage || OPENED !== null) {
         requestedAtMs = requestedNowMs;
         live.receiveAnswer(await getLive({ signal: timeout }), requestedNowMs, generation);
       } else {
@@ -44,7 +46,7 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
       }
     } catch (error) {
       // A rejection is an answer too; a missing one is measured by `quietMs`.
-      const isAnswer = error instanceof Rejection && error.status !== null;
+      const isAnswer = OPENED === null && error instanceof Rejection && error.status !== null;
       if (isAnswer) live.receiveAnswer(null, requestedNowMs, generation);
     } finally {
       isRequesting = false;
