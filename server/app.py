@@ -24,6 +24,7 @@ from server.api.gates import gates_router
 from server.api.guards import add_guards
 from server.api.guide import mount_guide
 from server.api.health import health_router
+from server.api.hub_requests import performer, rejected
 from server.api.jobs import jobs_router
 from server.api.labels import labels_router
 from server.api.latency import latency_router
@@ -53,6 +54,8 @@ from server.api.tools import tools_router
 from server.capture.address import source_from_text
 from server.config import Config
 from server.dicom_receiver import DicomReceiver
+from server.hub.connection import HubAddress
+from server.hub.requests import RequestServer
 from server.hub.theatre import HubPublication
 from server.installation import product_version
 from server.jobs import Jobs
@@ -145,9 +148,14 @@ def create_app(parts: AppParts) -> FastAPI:
         await app.state.scene.start()
         if parts.openigtlink is not None:
             await link.start(parts.openigtlink)
+        requests = _hub_requests(app, parts)
+        answering = None if requests is None else asyncio.create_task(requests.run(), name="hub requests")
         try:
             yield
         finally:
+            if answering is not None:
+                answering.cancel()
+                await asyncio.wait([answering])
             if parts.steps is not None:
                 await asyncio.to_thread(parts.steps.close)
             await link.stop()
@@ -206,6 +214,20 @@ def create_app(parts: AppParts) -> FastAPI:
         SceneBone(parts.store, app.state.scene.show_surface, own=parts.surface)
     _mount_files(app, config)
     return app
+
+
+def _hub_requests(app: FastAPI, parts: AppParts) -> RequestServer | None:
+    """Return what answers supervisors at the hub; None if it is off."""
+    publication, people, hub = parts.publication, parts.people, parts.config.hub
+    if not hub.requests or hub.theatre is None or publication is None or people is None:
+        return None
+    return RequestServer(
+        HubAddress.of(hub),
+        hub.theatre,
+        perform=performer(app, people),
+        is_published=lambda: publication.status.problem is None,
+        rejected=rejected,
+    )
 
 
 def picture_problem_of(app: FastAPI) -> Callable[[], Problem | None]:

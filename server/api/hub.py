@@ -16,17 +16,21 @@ from starlette.requests import HTTPConnection
 
 from server.api.dashboard import DashboardMessage
 from server.api.errors import NotYetAvailable, rejections
+from server.api.hub_cookies import theatre_cookie, token_at
 from server.api.hub_messages import HubTheatreMessage, HubTheatresMessage
 from server.clock import elapsed_s
 from server.config import Config
-from server.hub.connection import HubAddress
+from server.hub.connection import HubAddress, HubError
 from server.hub.opened import OpenedTheatres
 from server.hub.pictures import HEADER_LENGTH, picture_unpacked
 from server.hub.relay import relayed
+from server.hub.requester import request_line
+from server.hub.requests import HubRequest
 from server.hub.subjects import Leaf
 from server.hub.theatres import STALE_AFTER_MS, theatre_rows
 from server.hub.watcher import Received, Watcher
 from server.security import person_of
+from server.security.access_rules import THROUGH_HUB_KEYS
 from server.security.rejections import AddressUnknown
 from server.stream.connection import connection_of
 from server.stream.errors import TooManyViewers
@@ -39,6 +43,7 @@ AT = "/at/{theatre}"
 AGE_HEADER = "X-Coaxial-Age-Ms"
 # A theatre without pictures sends its message alone: the page claims nothing before a first one.
 MAX_WAIT_S = 1.0
+ROOM_PERIOD_S = 1.0
 RESTARTED = "the theatre was started again"
 
 
@@ -47,6 +52,7 @@ class HubContext:
     """What the routes of the hub use.
 
     Attributes:
+        address: The NATS server.
         watcher: Receives state and pictures of all theatres.
         opened: Receives live messages of opened theatres.
         viewers: Open pages.
@@ -54,6 +60,7 @@ class HubContext:
         dashboard: Start-up data of the page of an opened theatre.
     """
 
+    address: HubAddress
     watcher: Watcher
     opened: OpenedTheatres
     viewers: Viewers
@@ -65,6 +72,7 @@ class HubContext:
         """Return the parts of these settings; nothing is received until the watcher runs."""
         watcher = Watcher(address, (Leaf.STATE, Leaf.PICTURE))
         return cls(
+            address=address,
             watcher=watcher,
             opened=OpenedTheatres(address, clock_of=watcher.id),
             viewers=Viewers(maximum=config.video.max_viewers),
@@ -95,7 +103,38 @@ def hub_router(hub: HubContext) -> APIRouter:
     router = APIRouter(tags=["hub"])
     _add_list(router, hub)
     _add_opened(router, hub)
+    _add_requests(router, hub)
     return router
+
+
+def _add_requests(router: APIRouter, hub: HubContext) -> None:
+    """Pass what supervisors do in a theatre on to the theatre, with their session there."""
+
+    async def forward(theatre: str, request: Request) -> Response:
+        hub.reject_unseen(theatre, request)
+        asked = HubRequest(
+            method=request.method,
+            path=str(request.scope["path"]).removeprefix(f"/at/{theatre}"),
+            query=request.url.query,
+            token=token_at(theatre, request),
+            language=requested_language(),
+            body=(await request.body()).decode(errors="replace"),
+        )
+        async with request_line(hub.address, theatre) as line:
+            answer = await line.ask(asked)
+        # Without a session there, the person still has one here.
+        status = 403 if answer.status == 401 else answer.status
+        response = Response(answer.body, status_code=status, media_type=answer.content_type)
+        if answer.token is not None:
+            response.headers.append("Set-Cookie", theatre_cookie(theatre, answer.token, request))
+        return response
+
+    for method, path in THROUGH_HUB_KEYS:
+        router.add_api_route(AT + path, forward, methods=[method], include_in_schema=False)
+
+    @router.websocket(AT + "/ws/room")
+    async def room(websocket: WebSocket, theatre: str) -> None:
+        await _serve(websocket, theatre, hub, ViewerKind.ROOM, _send_room)
 
 
 def _add_list(router: APIRouter, hub: HubContext) -> None:
@@ -228,6 +267,27 @@ async def _serve(
             await run_duplex(websocket, hub.viewers, send=lambda: send(page), receive_text=receive)
     except TooManyViewers as full:
         await reject_viewer(websocket, full)
+    except HubError as error:
+        await websocket.close(TRY_LATER, error.code)
+
+
+async def _send_room(page: _Page) -> None:
+    """Answer each request with the state of the room, at most once a second; end without a session there."""
+    asked = HubRequest(
+        method="GET",
+        path="/api/supervision/room",
+        token=token_at(page.theatre, page.websocket),
+        language=page.websocket.query_params.get("lang", "en"),
+    )
+    async with request_line(page.hub.address, page.theatre) as line:
+        while True:
+            await page.requested.wait()
+            page.requested.clear()
+            answer = await line.ask(asked)
+            if answer.status != 200:
+                raise ProtocolViolation(TRY_LATER, "no session at the theatre")
+            await page.send(answer.body.decode())
+            await asyncio.sleep(ROOM_PERIOD_S)
 
 
 async def _send_messages(page: _Page) -> None:

@@ -54,7 +54,7 @@ def relayed(content: bytes, arrival: Arrival, *, has_picture: bool = False) -> R
         if snapshot is None:
             return Relayed(arrival=arrival, message=message, captured_at_s=None, image_number=None)
         captured_at_s, number = float(snapshot["captured_at_s"]), int(snapshot["image_number"])
-        width_px = int(snapshot["size_wh_px"][0])
+        width_px = int(snapshot["width_px"])
     except (KeyError, TypeError, IndexError, RecursionError) as error:
         raise ValueError(f"the live message is not valid: {error}") from None
     age_ms = arrival.image_age_ms(now_s=arrival.arrived_s)

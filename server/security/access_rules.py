@@ -261,6 +261,23 @@ SENT_BY_CAMERAS = """
 WS      /ws/camera
 """
 
+# What a supervisor of a theatre may also do through the hub, where the theatre allows it (`hub.requests`).
+# The theatre applies the rules above to each; the hub passes them on below `/at/{theatre}`.
+THROUGH_HUB = """
+GET     /api/session
+POST    /api/session
+DELETE  /api/session
+POST    /api/alarms/hold
+POST    /api/alarms/release
+GET     /api/supervision/room
+GET     /api/supervision/signatures
+POST    /api/supervision/signatures
+DELETE  /api/supervision/signatures/{signature_id}
+GET     /api/plan
+GET     /api/plan/vertebrae/{name}/reference.png
+GET     /api/registration
+"""
+
 # Not an action of a person: a heartbeat of the page every two seconds (the alarm log has the changes), and
 # the instant that a review shows.
 NOT_AUDITED = """
@@ -362,7 +379,16 @@ def _rules() -> Iterable[Rule]:
             )
 
 
-ACCESS_RULES: tuple[Rule, ...] = tuple(_rules())
+# The hub's own audit log has none of them: the theatre's log has, by whom it was done there.
+THROUGH_HUB_KEYS = tuple(_keys(THROUGH_HUB))
+ACCESS_RULES: tuple[Rule, ...] = (
+    *_rules(),
+    *(
+        Rule(method=method, template=f"/at/{{theatre}}{path}", roles=OVERSEERS)
+        for method, path in THROUGH_HUB_KEYS
+    ),
+    Rule(method=SOCKET, template="/at/{theatre}/ws/room", roles=OVERSEERS, is_long_lived=True),
+)
 
 
 def _pattern(template: str) -> "re.Pattern[str]":
@@ -389,3 +415,8 @@ def rules_of(method: str, path: str) -> tuple[list[tuple[Rule, Mapping[str, str]
     # Most specific first: the template with the fewest parameters.
     fitting.sort(key=lambda one: len(one[1]))
     return fitting, bool(found)
+
+
+def is_through_hub(method: str, path: str) -> bool:
+    """Return whether a theatre performs this for a supervisor who asks through the hub."""
+    return any((rule.method, rule.template) in THROUGH_HUB_KEYS for rule, _ in rules_of(method, path)[0])

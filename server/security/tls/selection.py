@@ -91,6 +91,21 @@ def reject_unsafe(config: Config) -> None:
                 "the theatres'.",
                 {"url": hub.url},
             )
+    if hub.requests and hub.unencrypted is not None and (hub.url or "").startswith("nats://"):
+        raise ConfigError(
+            "HUB_UNENCRYPTED",
+            f"hub.requests is true, but hub.url is {hub.url} without encryption: anybody on this network "
+            "could read the supervisors' sessions, and act as they may",
+            "Write tls:// in hub.url, or set hub.requests to false.",
+            {"url": hub.url},
+        )
+    if hub.requests and config.security.sign_in == "off":
+        raise ConfigError(
+            "SIGN_IN_NEEDED",
+            "hub.requests is true, but security.sign_in is off: anybody at the hub could act in this theatre",
+            "Set security.sign_in to required, or hub.requests to false.",
+            {"url": hub.url},
+        )
     cosign = config.supervision.cosign
     if config.security.sign_in == "off" and "required" in (cosign.plan, cosign.registration):
         raise ConfigError(

@@ -6,45 +6,67 @@ import { LiveProvider } from "../live/LiveContext";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
 import { VideoPane } from "../panes/VideoPane";
+import { RoomProvider } from "../room/RoomContext";
 import { AgesStrip } from "../supervisor/Ages";
+import { HoldPanel } from "../supervisor/HoldPanel";
+import { Signables } from "../supervisor/Signables";
 import { useTexts } from "../texts/TextsContext";
 import { ThemeButton } from "../theme/ThemeButton";
 import { theatresAt } from "./heard";
 import { HubNote } from "./HubNote";
+import { TheatreSession, useTheatreSession } from "./TheatreSession";
 import { useTheatres } from "./useTheatres";
 
 /** One theatre through the hub, by the panes of the theatre's own pages; covered by this page's own clock. */
 export function OpenedTheatre({ name }: { name: string }): ReactNode {
   const all = useTexts();
   const texts = all.hub;
+  const session = useTheatreSession();
+  const isIn = session.data !== null;
   return (
     <LiveProvider>
-      <div className="supervisor hub">
-        <header className="supervisor-top">
-          <h1>
-            {name} <small>{all.product}</small>
-          </h1>
-          <p className="notice">
-            {all.notice}. <span className="notice-more">{texts.through}</span>
-          </p>
-          <a className="big-link" href={`/${location.search}`}>
-            {texts.all}
-          </a>
-          <ThemeButton />
-          <SignedIn />
-        </header>
-        <Contact name={name} />
-        <AgesStrip />
-        <AlarmsShown />
-        <main className="opened">
-          <AfterFirstMessage loading={<LoadingNumbers />}>
-            <NumbersPane />
-          </AfterFirstMessage>
-          <VideoPane />
-        </main>
-      </div>
+      <InRoom isIn={isIn}>
+        <div className="supervisor hub">
+          <header className="supervisor-top">
+            <h1>
+              {name} <small>{all.product}</small>
+            </h1>
+            <p className="notice">
+              {all.notice}. <span className="notice-more">{texts.through}</span>
+            </p>
+            <a className="big-link" href={`/${location.search}`}>
+              {texts.all}
+            </a>
+            <ThemeButton />
+            <SignedIn />
+          </header>
+          <Contact name={name} />
+          <AgesStrip />
+          <AlarmsShown />
+          <main className="opened">
+            <AfterFirstMessage loading={<LoadingNumbers />}>
+              <NumbersPane />
+            </AfterFirstMessage>
+            <VideoPane />
+            <div className="opened-acts">
+              <TheatreSession theatre={name} query={session} />
+              {isIn && (
+                <>
+                  <HoldPanel />
+                  <Signables />
+                </>
+              )}
+            </div>
+          </main>
+        </div>
+      </InRoom>
     </LiveProvider>
   );
+}
+
+/** The theatre's room, for whoever has a session there. */
+function InRoom({ isIn, children }: { isIn: boolean; children: ReactNode }): ReactNode {
+  return isIn ? <RoomProvider view="supervisor">{children}</RoomProvider> : children;
 }
 
 /** Whether theatre, NATS server and hub are heard; nothing while they are. */

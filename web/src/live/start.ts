@@ -17,6 +17,7 @@ export type Dashboard = DashboardMessage;
 
 const ASK_WHEN_QUIET_MS = 300;
 const ASK_TIMEOUT_MS = 450;
+const ASK_AT_HUB_EVERY_MS = 1000;
 const COMPARE_CLOCKS_EVERY_MS = 5000;
 const NEW_LINE_WHEN_QUIET_MS = 2500;
 const MEASURE_EVERY_PICTURES = 5;
@@ -64,7 +65,9 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
       return;
     }
     const compareClocks = live.hasMessage && sinceRequestMs > COMPARE_CLOCKS_EVERY_MS;
-    if (!isRequesting && (quietMs > ASK_WHEN_QUIET_MS || compareClocks)) void request();
+    // The hub rejects at once while the theatre is silent.
+    const isSoon = OPENED !== null && sinceRequestMs < ASK_AT_HUB_EVERY_MS;
+    if (!isRequesting && !isSoon && (quietMs > ASK_WHEN_QUIET_MS || compareClocks)) void request();
   };
 
   const timer = setInterval(update, UPDATE_EVERY_MS);

@@ -22,5 +22,14 @@ export const hubDe: HubTexts = {
     "Das Konto {name} sieht keinen OP. Wer den Hub betreibt, trägt es mit seinen OPs unter hub.sees in die " +
     "Einstellungen ein.",
   noneHeard: "Keiner der OPs, die dieses Konto sieht ({names}), wurde seit dem Start des Hubs gehört.",
+  session: {
+    title: "Handeln in diesem OP",
+    signedIn: "Angemeldet im {theatre} als",
+    leave: "Dort abmelden",
+    needed:
+      "Um einen Halt zu erbitten oder zu unterschreiben, im {theatre} selbst anmelden: seine Bedienung lädt Sie als " +
+      "Aufsicht ein. Der OP entscheidet, was Sie dürfen, und protokolliert es.",
+    paste: "Einladungslink von {theatre}",
+  },
   through: "Über den Hub: Werte sind hier älter als im OP. Ihr Alter steht daneben.",
 };

@@ -20,6 +20,15 @@ export const hubEn = {
     "The account {name} sees no theatre. Who runs the hub adds it with its theatres under hub.sees in the settings.",
   noneHeard:
     "None of the theatres that this account sees ({names}) has been heard since the hub was started.",
+  session: {
+    title: "Acting in this theatre",
+    signedIn: "Signed in at {theatre} as",
+    leave: "Sign out there",
+    needed:
+      "To ask for a hold or to sign, sign in at {theatre} itself: its operator invites you as supervisor. The theatre " +
+      "decides and logs what you do.",
+    paste: "Invitation link of {theatre}",
+  },
   through: "Through the hub: numbers are older here than in theatre. Their age is beside them.",
 };
 
