@@ -48,6 +48,7 @@ def create_hub_app(config: Config, address: HubAddress, people: PeopleService | 
         responses=rejections(401, 403, 413, 421, 429, 500),
     )
     add_guards(app, server=config.server, people=people)
+    app.state.hub = hub
     app.include_router(session_router(people, is_hub=True))
     app.include_router(people_router(people, listens_everywhere=config.server.host in {"0.0.0.0", "::"}))  # noqa: S104  compared with
     app.include_router(audit_router(None if people is None else people.audit))

@@ -80,9 +80,9 @@ def reject_unsafe(config: Config) -> None:
             {"host": receive.host},
         )
     hub = config.hub
-    if hub.url is not None and hub.unencrypted is None:
-        scheme, _, host = hub.url.partition("://")
-        if scheme == "nats" and not is_loopback(host):
+    scheme, _, hub_host = (hub.url or "").partition("://")
+    if scheme == "nats" and not is_loopback(hub_host):
+        if hub.unencrypted is None:
             raise ConfigError(
                 "HUB_UNENCRYPTED",
                 f"hub.url is {hub.url}: pictures and figures of the theatre would cross the network readable "
@@ -91,14 +91,14 @@ def reject_unsafe(config: Config) -> None:
                 "the theatres'.",
                 {"url": hub.url},
             )
-    if hub.requests and hub.unencrypted is not None and (hub.url or "").startswith("nats://"):
-        raise ConfigError(
-            "HUB_UNENCRYPTED",
-            f"hub.requests is true, but hub.url is {hub.url} without encryption: anybody on this network "
-            "could read the supervisors' sessions, and act as they may",
-            "Write tls:// in hub.url, or set hub.requests to false.",
-            {"url": hub.url},
-        )
+        if hub.requests:
+            raise ConfigError(
+                "HUB_UNENCRYPTED",
+                f"hub.requests is true, but hub.url is {hub.url} without encryption: anybody on this network "
+                "could read the supervisors' sessions, and act as they may",
+                "Write tls:// in hub.url, or set hub.requests to false.",
+                {"url": hub.url},
+            )
     if hub.requests and config.security.sign_in == "off":
         raise ConfigError(
             "SIGN_IN_NEEDED",

@@ -9,7 +9,7 @@ HUB: tuple[Text, ...] = (
     },
     {
         "en": "Look at the state of the theatre, or call it, before you ask again.",
-        "de": "Den Zustand des OPs ansehen oder dort anrufen, bevor Sie es erneut versuchen.",
+        "de": "Den Zustand des OPs ansehen oder dort anrufen, dann erst erneut versuchen.",
     },
     {
         "en": "Look at the state of the theatre, then ask again.",

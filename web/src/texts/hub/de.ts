@@ -27,8 +27,8 @@ export const hubDe: HubTexts = {
     signedIn: "Angemeldet im {theatre} als",
     leave: "Dort abmelden",
     needed:
-      "Um einen Halt zu erbitten oder zu unterschreiben, im {theatre} selbst anmelden: seine Bedienung lädt Sie als " +
-      "Aufsicht ein. Der OP entscheidet, was Sie dürfen, und protokolliert es.",
+      "Um einen Halt zu erbitten oder zu unterschreiben, im {theatre} selbst anmelden: dessen Bedienung stellt " +
+      "eine Einladung als Aufsicht aus. Der OP entscheidet über jede Handlung und protokolliert sie.",
     paste: "Einladungslink von {theatre}",
   },
   through: "Über den Hub: Werte sind hier älter als im OP. Ihr Alter steht daneben.",
