@@ -6,10 +6,12 @@ by the same code.
 
 import asyncio
 import json
+from collections import deque
 from collections.abc import Callable, Coroutine, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
+from typing import Any
 
 from fastapi import APIRouter, Request, Response, WebSocket
 from starlette.requests import HTTPConnection
@@ -24,8 +26,8 @@ from server.hub.connection import HubAddress, HubError
 from server.hub.opened import OpenedTheatres
 from server.hub.pictures import HEADER_LENGTH, picture_unpacked
 from server.hub.relay import relayed
-from server.hub.requester import request_line
-from server.hub.requests import HubRequest
+from server.hub.requester import RequestLine, request_line
+from server.hub.requests import HubAnswer, HubRequest
 from server.hub.subjects import Leaf
 from server.hub.theatres import STALE_AFTER_MS, theatre_rows
 from server.hub.watcher import Received, Watcher
@@ -36,6 +38,7 @@ from server.stream.connection import connection_of
 from server.stream.errors import TooManyViewers
 from server.stream.messages import translated_problem
 from server.stream.socket import REJECTED, TRY_LATER, ProtocolViolation, reject_viewer, run_duplex
+from server.stream.tasks import run_until_first_ends
 from server.stream.viewers import ViewerKind, Viewers
 from server.texts import requested_language
 
@@ -44,6 +47,7 @@ AGE_HEADER = "X-Coaxial-Age-Ms"
 # A theatre without pictures sends its message alone: the page claims nothing before a first one.
 MAX_WAIT_S = 1.0
 ROOM_PERIOD_S = 1.0
+MAX_MARKS = 64
 RESTARTED = "the theatre was started again"
 
 
@@ -219,6 +223,31 @@ def _text_of(received: Received) -> str | None:
         return None
 
 
+class _Marks:
+    """Marks of a page that wait for the theatre. Of two positions of the pointer only the newer one waits.
+
+    Attributes:
+        passed: Set when the theatre has one more.
+    """
+
+    def __init__(self) -> None:
+        self.passed = asyncio.Event()
+        self._waiting: deque[dict[str, Any]] = deque(maxlen=MAX_MARKS)
+        self._added = asyncio.Event()
+
+    def add(self, message: dict[str, Any]) -> None:
+        if "point" in message and self._waiting and "point" in self._waiting[-1]:
+            self._waiting.pop()
+        self._waiting.append(message)
+        self._added.set()
+
+    async def next(self) -> dict[str, Any]:
+        while not self._waiting:
+            self._added.clear()
+            await self._added.wait()
+        return self._waiting.popleft()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Page:
     """One socket of a page that shows a theatre."""
@@ -228,6 +257,7 @@ class _Page:
     hub: HubContext
     watcher: Watcher
     requested: asyncio.Event
+    marks: _Marks
 
     async def send(self, message: str | bytes) -> None:
         is_text = isinstance(message, str)
@@ -246,15 +276,17 @@ async def _serve(
     if not hub.is_seen(theatre, websocket):
         await websocket.close(REJECTED, "this account does not see this theatre")
         return
-    requested = asyncio.Event()
+    requested, marks = asyncio.Event(), _Marks()
 
     def receive(text: str) -> None:
-        # Sizes and rates that the page asks for do not apply to small pictures.
+        # Sizes and rates that the page asks for do not apply to small pictures; only the room has marks.
         with suppress(ValueError, RecursionError):
             message = json.loads(text)
             if isinstance(message, dict):
                 if message.get("next") is True:
                     requested.set()
+                else:
+                    marks.add(message)
                 return
         raise ProtocolViolation(REJECTED, "messages are JSON objects")
 
@@ -263,7 +295,14 @@ async def _serve(
             hub.viewers.register(kind, person=person_of(websocket.scope)),
             hub.opened.watching(theatre) as watcher,
         ):
-            page = _Page(websocket=websocket, theatre=theatre, hub=hub, watcher=watcher, requested=requested)
+            page = _Page(
+                websocket=websocket,
+                theatre=theatre,
+                hub=hub,
+                watcher=watcher,
+                requested=requested,
+                marks=marks,
+            )
             await run_duplex(websocket, hub.viewers, send=lambda: send(page), receive_text=receive)
     except TooManyViewers as full:
         await reject_viewer(websocket, full)
@@ -272,22 +311,60 @@ async def _serve(
 
 
 async def _send_room(page: _Page) -> None:
-    """Answer each request with the state of the room, at most once a second; end without a session there."""
-    asked = HubRequest(
+    """Send the state of the room on request, once a second and after a mark; pass marks on to the theatre."""
+    asking = HubRequest(
         method="GET",
         path="/api/supervision/room",
         token=token_at(page.theatre, page.websocket),
         language=page.websocket.query_params.get("lang", "en"),
     )
-    async with request_line(page.hub.address, page.theatre) as line:
+
+    async def ask(line: RequestLine, request: HubRequest) -> HubAnswer:
+        answer = await line.ask(request)
+        if not 200 <= answer.status < 300:
+            raise ProtocolViolation(TRY_LATER, f"the theatre answered {answer.status}")
+        return answer
+
+    async def send_state(line: RequestLine) -> None:
         while True:
             await page.requested.wait()
             page.requested.clear()
-            answer = await line.ask(asked)
-            if answer.status != 200:
-                raise ProtocolViolation(TRY_LATER, "no session at the theatre")
-            await page.send(answer.body.decode())
-            await asyncio.sleep(ROOM_PERIOD_S)
+            page.marks.passed.clear()
+            await page.send((await ask(line, asking)).body.decode())
+            with suppress(TimeoutError):
+                await asyncio.wait_for(page.marks.passed.wait(), ROOM_PERIOD_S)
+
+    async def send_marks(line: RequestLine) -> None:
+        while True:
+            marked = await page.marks.next()
+            received = page.hub.opened.newest(page.theatre)
+            body = None if received is None else _mark_at(marked, received)
+            if body is not None:
+                path = "/api/supervision/marks"
+                await ask(line, replace(asking, method="POST", path=path, body=body))
+                page.marks.passed.set()
+
+    async with request_line(page.hub.address, page.theatre) as line:
+        await run_until_first_ends(send_state(line), send_marks(line))
+
+
+def _mark_at(marked: dict[str, Any], received: Received) -> str | None:
+    """Return a mark with the time of the newest image by the theatre's clock; None without an image.
+
+    The page has the time of its image by the hub's clock, which means nothing at the theatre.
+    """
+    try:
+        captured_at_s = relayed(received.content, received.arrival).captured_at_s
+    except ValueError:
+        return None
+    if captured_at_s is None:
+        return None
+    at = {
+        kind: one | {"captured_at_s": captured_at_s}
+        for kind in ("point", "draw")
+        if isinstance(one := marked.get(kind), dict)
+    }
+    return json.dumps(marked | at)
 
 
 async def _send_messages(page: _Page) -> None:

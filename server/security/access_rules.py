@@ -156,6 +156,7 @@ PUT     /api/recordings/{name}/scenes/{key}
 POST    /api/recordings/{name}/comments
 POST    /api/alarms/hold
 POST    /api/alarms/release
+POST    /api/supervision/marks
 POST    /api/supervision/signatures
 DELETE  /api/supervision/signatures/{signature_id}
 """
@@ -270,6 +271,7 @@ DELETE  /api/session
 POST    /api/alarms/hold
 POST    /api/alarms/release
 GET     /api/supervision/room
+POST    /api/supervision/marks
 GET     /api/supervision/signatures
 POST    /api/supervision/signatures
 DELETE  /api/supervision/signatures/{signature_id}
@@ -279,8 +281,9 @@ GET     /api/registration
 """
 
 # Not an action of a person: a heartbeat of the page every two seconds (the alarm log has the changes), and
-# the instant that a review shows.
+# the instant that a review shows. Marks change nothing, come many times a second, and drawings are logged.
 NOT_AUDITED = """
+POST    /api/supervision/marks
 POST    /api/alarms/screens
 PUT     /api/recordings/{name}/scenes/{key}
 """

@@ -2,13 +2,15 @@
 
 import socket
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from datetime import timedelta
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
+import numpy as np
 import uvicorn
 from fastapi import FastAPI
 
@@ -16,18 +18,23 @@ from server.alarms import AlarmService, StoredAlarmLog
 from server.app import AppParts, create_app
 from server.config import Config
 from server.hub.connection import HubAddress
+from server.hub.publisher import Outgoing, Publisher, PublisherSettings
 from server.hub.theatre import HubPublication
 from server.hub_app import create_hub_app
 from server.jobs import Jobs
-from server.live import LiveHub
+from server.live import LiveHub, Problem
 from server.logs import LogSettings
+from server.overlay import encode_jpeg
 from server.procedure import Steps, TrackingLink
 from server.security import AuditLog, PeopleService, Role
 from server.security.people.service import NewInvitation
+from server.sinks import SinkStatus
 from server.store import CaseStore, Home
+from server.stream.messages import live_message
 from tests.browser.fake_server import Feeder, setup
 from tests.browser.supervised_server import PATIENT, RATE_HZ, fill
 from tests.nats_server import NatsServer, nats_in
+from tracker.errors import NavigationError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,6 +80,53 @@ def hospital(folder: Path, *names: str, sees: dict[str, list[str]]) -> Iterator[
         yield Hospital(nats=nats, theatres=theatres, hub=Place(port=port, people=people, stop=stop))
 
 
+class PublishedByThread:
+    """Publishes a theatre by a thread: a process for it costs more than all of the test."""
+
+    def __init__(self, hub: LiveHub, config: Config, folder: Path) -> None:
+        assert config.hub.theatre is not None
+        self._hub = hub
+        self._publisher = Publisher(
+            PublisherSettings(
+                address=HubAddress.of(config.hub), theatre=config.hub.theatre, home=folder, max_rate_hz=60.0
+            )
+        )
+        self._problem: Problem | None = None
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._jpeg = encode_jpeg(np.full((180, 320, 3), 90, np.uint8), 70)
+
+    @property
+    def status(self) -> SinkStatus:
+        return SinkStatus(name="hub", problem=self._problem)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self) -> None:
+        self._ended.set()
+        self._thread.join()
+        self._publisher.close()
+
+    def _run(self) -> None:
+        sequence = -1
+        while not self._ended.is_set():
+            instant = self._hub.wait_after(sequence, 0.1)
+            if instant is None or instant.snapshot is None:
+                continue
+            sequence = instant.sequence
+            outgoing = Outgoing(
+                text=live_message(instant, now_s=time.monotonic()).model_dump_json(),
+                captured_at_s=instant.snapshot.captured_at_s,
+                picture=self._jpeg,
+            )
+            try:
+                self._publisher.receive(outgoing)
+                self._problem = None
+            except NavigationError as error:
+                self._problem = Problem.from_error(error)
+
+
 def _people(folder: Path) -> PeopleService:
     folder.mkdir(parents=True, exist_ok=True)
     return PeopleService(folder, audit=AuditLog(folder))
@@ -91,10 +145,7 @@ def _theatre(stack: ExitStack, folder: Path, at: dict[str, Any]) -> Place:
     link = TrackingLink(publish_setup=lambda _: None)
     steps = Steps.of(hub=hub, store=store, jobs=jobs, config=config, markers=(), tracking=link)
     fill(store, steps.procedure.run)
-    publication = HubPublication.of(
-        config, hub, home=folder, alarms=log, audit=people.audit, log_settings=settings
-    )
-    assert publication is not None
+    publication = PublishedByThread(hub, config, folder)
     parts = AppParts(
         hub=hub,
         config=config,
@@ -104,7 +155,7 @@ def _theatre(stack: ExitStack, folder: Path, at: dict[str, Any]) -> Place:
         jobs=jobs,
         steps=steps,
         people=people,
-        publication=publication,
+        publication=cast(HubPublication, publication),
     )
     port, stop_serving = _served(stack, create_app(parts))
     feeder = Feeder(hub, alarms, rate_hz=RATE_HZ)

@@ -12,6 +12,7 @@ from tests.browser.theatre import PATIENCE_MS, save_screenshot
 
 pytestmark = pytest.mark.browser
 NAME = "Dr. Weber"
+expect.set_options(timeout=PATIENCE_MS)
 
 
 def entered(browser: Browser, where: Hospital) -> Page:
@@ -36,7 +37,6 @@ def audited(where: Hospital, theatre: str) -> list[dict[str, Any]]:
 
 
 def test_a_supervisor_follows_two_theatres_and_signs_in_one(browser: Browser, tmp_path: Path) -> None:
-    expect.set_options(timeout=PATIENCE_MS)
     with hospital(tmp_path, "OR-1", "OR-2", sees={NAME: ["OR-*"]}) as where:
         page = entered(browser, where)
         for name in ("OR-1", "OR-2"):
@@ -56,6 +56,20 @@ def test_a_supervisor_follows_two_theatres_and_signs_in_one(browser: Browser, tm
             line for line in audited(where, "OR-1") if line["what"] == "POST /api/supervision/signatures"
         ]
         assert (signed["who"]["name"], signed["address"], signed["status"]) == (NAME, "hub", 201)
+
+        for _ in range(2):
+            first.get_by_test_id("hold-ask").click()
+        expect(first.get_by_test_id("hold")).to_have_attribute("data-requested", "true")
+        first.get_by_test_id("tool-circle").click()
+        over = first.get_by_test_id("marks").bounding_box()
+        assert over is not None
+        first.mouse.move(over["x"] + over["width"] / 3, over["y"] + over["height"] / 2)
+        first.mouse.down()
+        first.mouse.move(over["x"] + over["width"] / 2, over["y"] + over["height"] / 2)
+        first.mouse.up()
+        # It is drawn when the theatre's room has it.
+        expect(first.get_by_test_id("marks")).to_have_attribute("data-empty", "false")
+        save_screenshot(first, "hub-acting")
 
         where.theatres["OR-2"].stop()
         expect(second.get_by_test_id("numbers")).to_have_attribute("data-live", "false")

@@ -17,6 +17,7 @@ from server.hub.requests import (
     request_from,
 )
 from server.security import Role
+from tests.server.conftest import make_instant, make_snapshot
 from tests.server.security.guarded_app import Guarded, guarded
 
 TOKEN = "0" * 12 + "." + "A" * 43
@@ -111,6 +112,25 @@ def test_a_supervisor_signs_in_at_the_theatre_and_holds_there_under_their_own_na
     assert (left.status, left.token) == (204, "")
     again = asked(house, "POST", "/api/alarms/release", token=entered.token, body={})
     assert (again.status, code_of(again)) == (401, "SESSION_EXPIRED")
+
+
+def test_a_mark_through_the_hub_is_in_the_room_under_its_authors_name(house: Guarded) -> None:
+    snapshot = make_snapshot()
+    house.live.publish(make_instant(1, snapshot=snapshot))
+    token = house.token(Role.SUPERVISOR, name="Dr. Weber")
+    point = {
+        "at": [10.0, 20.0],
+        "image_number": snapshot.image_number,
+        "captured_at_s": snapshot.captured_at_s,
+    }
+    marked = asked(house, "POST", "/api/supervision/marks", token=token, body={"point": point})
+    assert marked.status == 204
+    room = json.loads(asked(house, "GET", "/api/supervision/room", token=token).body)
+    ((seat, name),) = [(one["seat"], one["name"]) for one in room["pointers"]]
+    assert (seat, name) == (room["you"]["seat"], "Dr. Weber")
+    for role in (Role.VIEWER, Role.SCREEN):
+        refused = house.door.post("/api/supervision/marks", headers=house.bearer(role), json={"lift": True})
+        assert refused.status_code == 403
 
 
 def test_without_a_session_at_the_theatre_nothing_is_done(house: Guarded) -> None:

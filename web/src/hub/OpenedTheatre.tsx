@@ -3,6 +3,8 @@ import { AlarmsShown } from "../alarms/AlarmBand";
 import { SignedIn } from "../app/SignedIn";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
 import { LiveProvider } from "../live/LiveContext";
+import { MarkingProvider } from "../marks/MarkingContext";
+import { MarksTools } from "../marks/MarksTools";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
 import { VideoPane } from "../panes/VideoPane";
@@ -47,7 +49,16 @@ export function OpenedTheatre({ name }: { name: string }): ReactNode {
             <AfterFirstMessage loading={<LoadingNumbers />}>
               <NumbersPane />
             </AfterFirstMessage>
-            <VideoPane />
+            {isIn ? (
+              <MarkingProvider>
+                <div className="opened-video">
+                  <VideoPane />
+                  <MarksTools />
+                </div>
+              </MarkingProvider>
+            ) : (
+              <VideoPane />
+            )}
             <div className="opened-acts">
               <TheatreSession theatre={name} query={session} />
               {isIn && (
