@@ -12,6 +12,12 @@ from tests.browser.theatre import PATIENCE_MS, save_screenshot
 
 pytestmark = pytest.mark.browser
 NAME = "Dr. Weber"
+NOTE_ALARMS = """() => {
+    window.alarmsShown = [];
+    const band = document.querySelector("[data-testid='alarms-shown']");
+    const note = () => window.alarmsShown.push(band.dataset.priority);
+    new MutationObserver(note).observe(band, { attributeFilter: ["data-priority"] });
+}"""
 expect.set_options(timeout=PATIENCE_MS)
 
 
@@ -72,10 +78,14 @@ def test_a_supervisor_follows_two_theatres_and_signs_in_one(browser: Browser, tm
         save_screenshot(first, "hub-acting")
 
         where.theatres["OR-2"].stop()
+        second.evaluate(NOTE_ALARMS)
         expect(second.get_by_test_id("numbers")).to_have_attribute("data-live", "false")
         expect(second.get_by_test_id("video")).to_have_attribute("data-live", "false")
         expect(second.get_by_test_id("alarms-shown")).to_have_attribute("data-priority", "unknown")
         expect(second.get_by_test_id("reading-angle")).to_have_text("—")
+        # Answers of the hub itself do not bring back the alarms of a theatre that is silent.
+        expect(second.get_by_test_id("theatre-presence")).to_be_visible()
+        assert set(second.evaluate("window.alarmsShown")) <= {"unknown"}
         expect(page.get_by_test_id("theatre-OR-2").get_by_test_id("image-age")).to_have_count(0)
         expect(first.get_by_test_id("numbers")).to_have_attribute("data-live", "true")
 

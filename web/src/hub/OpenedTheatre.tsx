@@ -43,12 +43,14 @@ export function OpenedTheatre({ name }: { name: string }): ReactNode {
             <SignedIn />
           </header>
           <Contact name={name} />
-          <AgesStrip />
           <AlarmsShown />
           <main className="opened">
-            <AfterFirstMessage loading={<LoadingNumbers />}>
-              <NumbersPane />
-            </AfterFirstMessage>
+            <div className="opened-numbers">
+              <AgesStrip />
+              <AfterFirstMessage loading={<LoadingNumbers />}>
+                <NumbersPane />
+              </AfterFirstMessage>
+            </div>
             {isIn ? (
               <MarkingProvider>
                 <div className="opened-video">

@@ -27,7 +27,7 @@ export const hubDe: HubTexts = {
     signedIn: "Angemeldet im {theatre} als",
     leave: "Dort abmelden",
     needed:
-      "Um einen Halt zu erbitten oder zu unterschreiben, im {theatre} selbst anmelden: dessen Bedienung stellt " +
+      "Um einen Halt zu erbitten, zu zeigen oder zu unterschreiben, im {theatre} selbst anmelden: dessen Bedienung stellt " +
       "eine Einladung als Aufsicht aus. Der OP entscheidet über jede Handlung und protokolliert sie.",
     paste: "Einladungslink von {theatre}",
   },

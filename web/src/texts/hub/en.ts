@@ -25,7 +25,7 @@ export const hubEn = {
     signedIn: "Signed in at {theatre} as",
     leave: "Sign out there",
     needed:
-      "To ask for a hold or to sign, sign in at {theatre} itself: its operator invites you as supervisor. The theatre " +
+      "To ask for a hold, to mark or to sign, sign in at {theatre} itself: its operator invites you as supervisor. The theatre " +
       "decides and logs what you do.",
     paste: "Invitation link of {theatre}",
   },
