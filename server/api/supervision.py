@@ -59,10 +59,18 @@ def room_router(room_hub: RoomHub, viewers: Viewers) -> APIRouter:
             mark(message, room_hub, room_hub.visit(person_of(request.scope)))
         except RoomPolicyViolation as unfair:
             raise InvalidInput(
-                "MARK_REJECTED", f"the mark was rejected: {unfair}", "Mark less, or less often.", {}
+                "MARK_REJECTED",
+                "the mark was rejected: it is not valid, or there were too many",
+                "Draw less at once, or wait a second.",
+                {"reason": str(unfair)},
             ) from unfair
         except RoomFull as full:
-            raise NotYetAvailable("ROOM_FULL", str(full), "Close other pages.", {}) from full
+            raise NotYetAvailable(
+                "ROOM_FULL",
+                "as many pages of supervisors are open as is possible",
+                "Close pages that are not needed.",
+                {"reason": str(full)},
+            ) from full
         return Response(status_code=204)
 
     @router.websocket("/ws/room")

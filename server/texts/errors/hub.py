@@ -37,6 +37,18 @@ HUB: Mapping[str, tuple[Text, ...]] = {
             "de": "die Rolle {role} kann über den Hub nicht benutzt werden",
         },
     ),
+    "MARK_REJECTED": (
+        {
+            "en": "the mark was rejected: it is not valid, or there were too many",
+            "de": "die Markierung wurde abgelehnt: sie ist ungültig, oder es waren zu viele",
+        },
+    ),
+    "ROOM_FULL": (
+        {
+            "en": "as many pages of supervisors are open as is possible",
+            "de": "es sind so viele Seiten der Aufsicht geöffnet, wie möglich sind",
+        },
+    ),
     "THEATRE_SILENT": (
         {
             "en": "nothing recent was received from {theatre}",

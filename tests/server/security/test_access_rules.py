@@ -48,6 +48,11 @@ SUPERVISORS_DO = {
     "POST /api/session",
     "POST /api/alarms/hold",
     "POST /api/alarms/release",
+    # At the hub, which passes them on: the theatre decides.
+    "POST /at/{theatre}/api/session",
+    "DELETE /at/{theatre}/api/session",
+    "POST /at/{theatre}/api/alarms/hold",
+    "POST /at/{theatre}/api/alarms/release",
 }
 SCREENS_DO = {
     "DELETE /api/session",

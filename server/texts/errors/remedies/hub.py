@@ -4,6 +4,14 @@ from server.texts.language import Text
 
 HUB: tuple[Text, ...] = (
     {
+        "en": "Close pages that are not needed.",
+        "de": "Nicht benötigte Seiten schließen.",
+    },
+    {
+        "en": "Draw less at once, or wait a second.",
+        "de": "Weniger auf einmal zeichnen, oder eine Sekunde warten.",
+    },
+    {
         "en": "Ask the operator of the theatre for an invitation as supervisor.",
         "de": "Bei der Bedienung des OPs um eine Einladung als Aufsicht bitten.",
     },
