@@ -12,8 +12,6 @@ from server.alarms import AlarmService
 from server.api.accuracy import accuracy_router
 from server.api.alarms import alarms_router
 from server.api.audit import audit_router
-from server.api.body_drain import BodyDrainMiddleware
-from server.api.body_limits import BodyLimitMiddleware
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.certificates import certificates_router
@@ -21,20 +19,21 @@ from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router
 from server.api.documentation import DocumentedApi, documentation_router
 from server.api.drillings import drillings_router
-from server.api.errors import install_errors, rejections
+from server.api.errors import rejections
 from server.api.gates import gates_router
-from server.api.guide import is_guide, mount_guide
+from server.api.guards import add_guards
+from server.api.guide import mount_guide
 from server.api.health import health_router
+from server.api.hub_requests import performer, rejected
 from server.api.jobs import jobs_router
 from server.api.labels import labels_router
-from server.api.language import LanguageMiddleware
 from server.api.latency import latency_router
 from server.api.live import live_router
 from server.api.markers import markers_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.navigation_ct import navigation_ct_router
 from server.api.needles import needles_router
-from server.api.page import mount_page, page_addresses, page_folder
+from server.api.page import mount_page, page_folder
 from server.api.people import people_router
 from server.api.placements import placements_router
 from server.api.plan import plan_router
@@ -55,6 +54,8 @@ from server.api.tools import tools_router
 from server.capture.address import source_from_text
 from server.config import Config
 from server.dicom_receiver import DicomReceiver
+from server.hub.connection import HubAddress
+from server.hub.requests import RequestServer
 from server.hub.theatre import HubPublication
 from server.installation import product_version
 from server.jobs import Jobs
@@ -70,7 +71,7 @@ from server.recording.review import RecordingReview
 from server.recording.review_scenes import ReviewScenes
 from server.recording.service import RecordingService
 from server.scene import Admit, mount_scene
-from server.security import HostGuard, KnownHosts, PeopleService, SecurityHeaders, SessionGuard
+from server.security import PeopleService
 from server.sinks import Sinks
 from server.store import CaseStore
 from server.stream.connection import abort_connection
@@ -147,9 +148,14 @@ def create_app(parts: AppParts) -> FastAPI:
         await app.state.scene.start()
         if parts.openigtlink is not None:
             await link.start(parts.openigtlink)
+        requests = _hub_requests(app, parts)
+        answering = None if requests is None else asyncio.create_task(requests.run(), name="hub requests")
         try:
             yield
         finally:
+            if answering is not None:
+                answering.cancel()
+                await asyncio.wait([answering])
             if parts.steps is not None:
                 await asyncio.to_thread(parts.steps.close)
             await link.stop()
@@ -171,7 +177,7 @@ def create_app(parts: AppParts) -> FastAPI:
         dependencies=[Depends(set_requester)],
         responses=rejections(401, 403, 413, 421, 429, 500),
     )
-    _add_guards(app, parts)
+    add_guards(app, server=config.server, people=parts.people)
     app.state.pictures = pictures
     app.state.review_scenes = None
     _add_streams(app, parts, viewers, video, view)
@@ -210,6 +216,20 @@ def create_app(parts: AppParts) -> FastAPI:
     return app
 
 
+def _hub_requests(app: FastAPI, parts: AppParts) -> RequestServer | None:
+    """Return what answers supervisors at the hub; None if it is off."""
+    publication, people, hub = parts.publication, parts.people, parts.config.hub
+    if not hub.requests or hub.theatre is None or publication is None or people is None:
+        return None
+    return RequestServer(
+        HubAddress.of(hub),
+        hub.theatre,
+        perform=performer(app, people),
+        is_published=lambda: publication.status.problem is None,
+        rejected=rejected,
+    )
+
+
 def picture_problem_of(app: FastAPI) -> Callable[[], Problem | None]:
     """Return a function for any thread: why this application cannot draw a picture, None while it can."""
     pictures: PictureCache = app.state.pictures
@@ -228,25 +248,6 @@ def _mount_files(app: FastAPI, config: Config) -> None:
     """Mount the guide, then the page, which matches every path."""
     mount_guide(app)
     mount_page(app, camera=config.camera.name, folder=page_folder())
-
-
-def _add_guards(app: FastAPI, parts: AppParts) -> None:
-    """Add the middleware; the last one added runs first."""
-    server = parts.config.server
-    is_page = page_addresses(page_folder())
-    install_errors(app)
-    app.add_middleware(BodyLimitMiddleware)
-    if parts.people is not None:
-        app.add_middleware(
-            SessionGuard,
-            people=parts.people,
-            is_page=lambda path: is_page(path) or is_guide(path),
-            behind_proxy=server.behind_proxy is not None,
-        )
-    app.add_middleware(HostGuard, hosts=KnownHosts.of(server.host))
-    app.add_middleware(SecurityHeaders)
-    app.add_middleware(BodyDrainMiddleware)
-    app.add_middleware(LanguageMiddleware)
 
 
 def _add_people(app: FastAPI, parts: AppParts) -> None:

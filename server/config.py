@@ -488,6 +488,10 @@ class HubConfig(Section):
     """Maximum rate of live messages; above it only the newest are sent."""
     picture_rate_hz: Annotated[float, Field(ge=0.0, le=10.0)] = 2
     """Rate of small pictures; 0: none."""
+    requests: bool = False
+    """Whether supervisors who are signed in to this theatre hold, mark and sign in it through the hub."""
+    sees: dict[str, list[str]] = {}
+    """For `coaxial hub`: by a person's name, the theatres that they see; `OR-*` stands for many."""
 
 
 class Config(Section):

@@ -10,6 +10,7 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from server.errors import CaptureError, RecordingError, SetupOrderError
+from server.hub.connection import HubError
 from server.jobs import JobUnknown
 from server.security import rejections as door
 from server.store import NotFound, OutOfDateError, StoreConflict, StoreError
@@ -36,10 +37,14 @@ STATUS_OF: dict[type[NavigationError], int] = {
     OutOfDateError: 409,
     StoreError: 503,
     JobUnknown: 404,
+    HubError: 503,
     **door.STATUS_OF,
 }
 # Codes with a specific HTTP status.
 STATUS_OF_CODE = {
+    "HUB_REQUEST_OLD": 409,
+    "HUB_REQUEST_REJECTED": 403,
+    "HUB_SUPERVISORS_ONLY": 403,
     "RECORDING_BUDGET_EXCEEDED": 507,
     "RECORDING_DISK_FULL": 507,
     "STORE_FULL": 507,

@@ -14,6 +14,7 @@ from server.stream.messages import (
     ProblemMessage,
     ProcessMessage,
     SourceMessage,
+    problem_message,
     process_message,
     source_message,
 )
@@ -56,7 +57,15 @@ def health_message(
     instant: Instant | None, *, now_s: float, stale_after_ms: float, sinks: Sequence[SinkStatus] = ()
 ) -> HealthMessage:
     """Return the health at monotonic time `now_s`; images older than `stale_after_ms` degrade it."""
-    stated = [SinkMessage.model_validate(sink, from_attributes=True) for sink in sinks]
+    stated = [
+        SinkMessage(
+            name=sink.name,
+            problem=problem_message(sink.problem),
+            messages=sink.messages,
+            skipped=sink.skipped,
+        )
+        for sink in sinks
+    ]
     if instant is None:
         return HealthMessage(
             status=HealthState.DEGRADED, process=None, source=None, image_age_ms=None, sinks=stated

@@ -16,7 +16,7 @@ from server.security.headers import CAMERA_PAGE_PERMISSIONS
 PAGE_FOLDERS = file_candidates("page", "web/dist")
 # Client-side routes of the page, all served by its one HTML file.
 CAMERA_VIEW = "camera"
-VIEWS = frozenset({"theatre", "operator", "supervisor", "enter", CAMERA_VIEW})
+VIEWS = frozenset({"theatre", "operator", "supervisor", "theatres", "enter", CAMERA_VIEW})
 # File names of these assets contain a hash of their content.
 FOREVER = "public, max-age=31536000, immutable"
 REVALIDATE = "no-cache"

@@ -18,7 +18,7 @@ def session_of(request: Request) -> Session | None:
     return found if isinstance(found, Session) else None
 
 
-def session_router(people: PeopleService | None) -> APIRouter:
+def session_router(people: PeopleService | None, *, is_hub: bool = False) -> APIRouter:
     """Return the router of `/api/session`."""
     router = APIRouter(prefix="/api/session", tags=["people"])
 
@@ -28,13 +28,18 @@ def session_router(people: PeopleService | None) -> APIRouter:
         session = session_of(request)
         if session is None:
             return SessionMessage(
-                name=LOCAL_USER.name, role=LOCAL_USER.role, expires_at=None, sign_in_required=False
+                name=LOCAL_USER.name,
+                role=LOCAL_USER.role,
+                expires_at=None,
+                sign_in_required=False,
+                is_hub=is_hub,
             )
         return SessionMessage(
             name=session.person.name,
             role=session.person.role,
             expires_at=session.expires_at,
             sign_in_required=True,
+            is_hub=is_hub,
         )
 
     @router.post("", responses=rejections(408, 409, 422, 503))
@@ -61,6 +66,7 @@ def session_router(people: PeopleService | None) -> APIRouter:
             role=session.person.role,
             expires_at=session.expires_at,
             sign_in_required=True,
+            is_hub=is_hub,
             token=token.text if session.for_machine else None,
         )
 

@@ -33,6 +33,8 @@ class SessionMessage(Message):
     expires_at: datetime | None
     """null if sign-in is off."""
     sign_in_required: bool
+    is_hub: bool
+    """Whether this server is the hub of many theatres."""
 
 
 class EnterRequest(Message):

@@ -1,23 +1,26 @@
 """Remote supervision: the room socket (people, pointers, drawings) and co-signatures."""
 
-from fastapi import APIRouter, Request, WebSocket
+from fastapi import APIRouter, Request, Response, WebSocket
 
-from server.api.errors import rejections
+from server.api.errors import NotYetAvailable, rejections
 from server.api.supervision_messages import (
+    ClientMessage,
     RoomMessage,
     SignatureRequest,
     SignaturesMessage,
     room_message,
     signable_message,
 )
-from server.api.supervision_socket import serve_room
+from server.api.supervision_socket import mark, serve_room
 from server.security import person_of
 from server.stream.viewers import Viewers
-from server.supervision import RoomHub, SignatureService, View
+from server.supervision import RoomHub, RoomPolicyViolation, SignatureService, View
 from server.supervision.participants import RoomSession
+from server.supervision.room import RoomFull
 from server.supervision.room_updates import SentState
 from server.supervision.signatures import Signable
 from server.supervision.token_bucket import TokenBucket
+from tracker.errors import InvalidInput
 
 STORE_ERRORS = rejections(404, 409, 422, 503, 507)
 
@@ -45,7 +48,30 @@ def room_router(room_hub: RoomHub, viewers: Viewers) -> APIRouter:
             bucket=TokenBucket.full(rate_hz=0.0, capacity=0.0, now_s=now_s),
             look_bucket=TokenBucket.full(rate_hz=0.0, capacity=0.0, now_s=now_s),
         )
-        return room_message(SentState().update(room_hub.state()), session=nobodys)
+        return room_message(
+            SentState().update(room_hub.state()), session=room_hub.visit_of(person) or nobodys
+        )
+
+    @router.post("/api/supervision/marks", status_code=204, responses=rejections(422, 503))
+    async def marks(request: Request, message: ClientMessage) -> Response:
+        """Point, draw or clear, as by `WS /ws/room`, for people without a socket, as through the hub."""
+        try:
+            mark(message, room_hub, room_hub.visit(person_of(request.scope)))
+        except RoomPolicyViolation as unfair:
+            raise InvalidInput(
+                "MARK_REJECTED",
+                "the mark was rejected: it is not valid, or there were too many",
+                "Draw less at once, or wait a second.",
+                {"reason": str(unfair)},
+            ) from unfair
+        except RoomFull as full:
+            raise NotYetAvailable(
+                "ROOM_FULL",
+                "as many pages of supervisors are open as is possible",
+                "Close pages that are not needed.",
+                {"reason": str(full)},
+            ) from full
+        return Response(status_code=204)
 
     @router.websocket("/ws/room")
     async def sit(websocket: WebSocket) -> None:

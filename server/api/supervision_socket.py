@@ -18,13 +18,14 @@ from pydantic import ValidationError
 from starlette.websockets import WebSocket
 
 from server.api.supervision_messages import ClientMessage, cut_plane, look_of, room_message
-from server.security import person_of
+from server.security import Person, person_of
 from server.stream.connection import connection_of
 from server.stream.errors import TooManyViewers
 from server.stream.socket import REJECTED, TRY_LATER, ProtocolViolation, reject_viewer, run_duplex
 from server.stream.viewers import ViewerKind, Viewers
 from server.supervision import RoomHub, RoomPolicyViolation, View
 from server.supervision.marks import Moment
+from server.supervision.participants import RoomSession
 from server.supervision.room import RoomFull
 from server.supervision.room_hub import HEARTBEAT_S, MIN_INTERVAL_S, RoomSubscription
 from server.supervision.room_updates import SentState
@@ -83,12 +84,10 @@ async def _talk(websocket: WebSocket, room_hub: RoomHub, viewers: Viewers, here:
                 if room_hub.room.look(here.session, look_of(message.look), now_s=room_hub.now_s):
                     room_hub.notify()
                 return
-            _do(message, room_hub, here)
+            mark(message, room_hub, here.session)
         except RoomPolicyViolation as unfair:
             _log.warning("room_misused", by=here.session.person.name, why=str(unfair))
             raise ProtocolViolation(REJECTED, str(unfair)) from unfair
-        room_hub.on_mark(_mark_json(message, here))
-        room_hub.notify()
 
     await run_duplex(websocket, viewers, send=send, receive_text=receive_text)
 
@@ -108,22 +107,32 @@ def _parse_message(text: str) -> ClientMessage:
         raise ProtocolViolation(REJECTED, f"invalid message: {error.errors()[0]['msg']}"[:120]) from None
 
 
-def _mark_json(message: ClientMessage, here: RoomSubscription) -> str:
+def mark(message: ClientMessage, room_hub: RoomHub, session: RoomSession) -> None:
+    """Point, draw or clear as this page, and notify the others.
+
+    Raises:
+        RoomPolicyViolation: not for this role; rate limit; an invalid drawing.
+    """
+    _do(message, room_hub, session)
+    room_hub.on_mark(_mark_json(message, session.person))
+    room_hub.notify()
+
+
+def _mark_json(message: ClientMessage, person: Person) -> str:
     """Return a command and its author as JSON."""
-    person = here.session.person
     done = message.model_dump(mode="json", exclude_unset=True)
     return json.dumps({"by": person.name, "role": person.role.value, **done}, ensure_ascii=False)
 
 
-def _do(message: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> None:
-    room, session, now_s = room_hub.room, here.session, room_hub.now_s
+def _do(message: ClientMessage, room_hub: RoomHub, session: RoomSession) -> None:
+    room, now_s = room_hub.room, room_hub.now_s
     if message.point is not None:
         moment = Moment(image_number=message.point.image_number, captured_at_s=message.point.captured_at_s)
         x, y = message.point.at
         plane = cut_plane(message.point.plane)
         room.point(session, (x, y), moment, room_hub.shown, plane=plane, now_s=now_s)
     elif message.draw is not None:
-        _draw(message, room_hub, here)
+        _draw(message, room_hub, session)
     elif message.extend is not None:
         points = [(x, y) for x, y in message.extend.points]
         room.extend(session, message.extend.key, points, room_hub.shown, now_s=now_s)
@@ -137,14 +146,14 @@ def _do(message: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> No
         room.lift(session, now_s=now_s)
 
 
-def _draw(message: ClientMessage, room_hub: RoomHub, here: RoomSubscription) -> None:
+def _draw(message: ClientMessage, room_hub: RoomHub, session: RoomSession) -> None:
     """Log author, time, image and CT of a drawing; its points are not stored."""
     draw = message.draw
     if draw is None:
         return
     moment = Moment(image_number=draw.image_number, captured_at_s=draw.captured_at_s)
     points = [(x, y) for x, y in draw.points]
-    session, plane = here.session, cut_plane(draw.plane)
+    plane = cut_plane(draw.plane)
     if room_hub.room.draw(
         session, draw.key, draw.shape, points, moment, room_hub.shown, plane=plane, now_s=room_hub.now_s
     ):

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from datetime import timedelta
+from pathlib import Path
 
 from server.config import Config
 from server.security import AuditLog, PeopleService
@@ -30,16 +31,14 @@ class AccessControl:
     operator: Token | None
 
     @classmethod
-    def of(cls, config: Config, store: CaseStore, *, new_operator_link: bool) -> "AccessControl":
+    def of(cls, config: Config, home: Path, *, new_operator_link: bool) -> "AccessControl":
         """Open sign-in and audit log in the home folder, and record the start in the audit log.
-
-        Changes that the audit log has and the store has lost are marked.
 
         Raises:
             ConfigError: the certificate is not usable.
             StoreError: sign-in data or audit log cannot be written.
         """
-        folder = store.home.folder / SECURITY_FOLDER
+        folder = home / SECURITY_FOLDER
         with translate_errors(folder):
             tls = select_tls(config, folder)
         audit = AuditLog(folder)
@@ -50,10 +49,17 @@ class AccessControl:
             session_lasts=timedelta(hours=config.security.session_h),
         )
         operator = people.operator_token(wanted=new_operator_link)
-        store.set_change_listener(audit.record_change)
         audit.append(Entry(who=SERVER, what="start", changes=tuple(_printed(operator))))
-        mark_lost_changes(store, audit)
         return cls(people=people, tls=tls, operator=operator)
+
+    def follow(self, store: CaseStore) -> None:
+        """Write the changes of a store to the audit log; mark those that the log has and the store has lost.
+
+        Raises:
+            StoreError: the audit log cannot be written.
+        """
+        store.set_change_listener(self.people.audit.record_change)
+        mark_lost_changes(store, self.people.audit)
 
     def startup_lines(self, host: str) -> list[str]:
         """Return the lines to print when the server is ready at this host."""

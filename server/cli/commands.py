@@ -15,7 +15,7 @@ from server.cli.calibration.commands import add_calibration
 from server.cli.camera_commands import cameras
 from server.cli.certify_commands import certify_app
 from server.cli.config_option import ConfigOption
-from server.cli.hub_commands import theatres
+from server.cli.hub_commands import hub, theatres
 from server.cli.latency_commands import latency_app
 from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
@@ -57,6 +57,7 @@ app.command()(verify)
 app.command()(replay)
 app.add_typer(recording_app, name="recording")
 app.command()(theatres)
+app.command()(hub)
 
 
 class Rate(StrEnum):

@@ -52,7 +52,7 @@ def run_dashboard(
         settings = LogSettings.for_terminal(as_json=True if log_json else None, debug=debug)
         configure_logging(settings)
         reject_unsafe(config)
-        listener = _listener(config.server.host, config.server.port)
+        listener = listening_socket(config.server.host, config.server.port)
         doors = _Doors(web=listener, link=_link_listener(config), dicom=_dicom_listener(config))
         _serve(config, settings, doors, stopping, new_operator_link=new_operator_link)
 
@@ -86,7 +86,8 @@ def _serve(
         tracked.start()
         ending.callback(tracked.stop)
         storage = Storage.opened(ending, settings)
-        access = AccessControl.of(config, storage.store, new_operator_link=new_operator_link)
+        access = AccessControl.of(config, storage.store.home.folder, new_operator_link=new_operator_link)
+        access.follow(storage.store)
         preparation = build_setup(config)
         _check_markers(preparation)
         warn_of_configured_camera(config)
@@ -263,7 +264,7 @@ def _link_listener(config: Config) -> socket.socket | None:
     link = config.openigtlink
     if link.port is None:
         return None
-    return _listener(link.host, link.port, port_remedy=LINK_PORT_REMEDY, host_remedy=LINK_HOST_REMEDY)
+    return listening_socket(link.host, link.port, port_remedy=LINK_PORT_REMEDY, host_remedy=LINK_HOST_REMEDY)
 
 
 def _dicom_listener(config: Config) -> socket.socket | None:
@@ -271,10 +272,12 @@ def _dicom_listener(config: Config) -> socket.socket | None:
     receive = config.dicom.receive
     if receive.port is None:
         return None
-    return _listener(receive.host, receive.port, port_remedy=DICOM_PORT_REMEDY, host_remedy=DICOM_HOST_REMEDY)
+    return listening_socket(
+        receive.host, receive.port, port_remedy=DICOM_PORT_REMEDY, host_remedy=DICOM_HOST_REMEDY
+    )
 
 
-def _listener(
+def listening_socket(
     host: str, port: int, *, port_remedy: str = PORT_REMEDY, host_remedy: str = HOST_REMEDY
 ) -> socket.socket:
     """Return the listening socket. It is bound first, so that a port in use is reported at once."""

@@ -14,7 +14,7 @@ from server.cli.options import SettingOptions, config_from_options
 from server.clock import elapsed_s
 from server.hub.connection import HubAddress
 from server.hub.subjects import Leaf
-from server.hub.theatres import Presence, TheatreRow, theatre_rows
+from server.hub.theatres import TheatrePresence, TheatreRow, theatre_rows
 from server.hub.watcher import Watcher
 from server.security.tls import reject_unsafe
 
@@ -22,7 +22,12 @@ from server.security.tls import reject_unsafe
 LISTEN_S = 4.0
 REFRESH_S = 0.25
 NONE_HEARD = 1
-COLOURS = {Presence.LIVE: "", Presence.UNMEASURED: "dim", Presence.STALE: "yellow", Presence.GONE: "dim"}
+COLOURS = {
+    TheatrePresence.LIVE: "",
+    TheatrePresence.UNMEASURED: "dim",
+    TheatrePresence.STALE: "yellow",
+    TheatrePresence.GONE: "dim",
+}
 
 
 def list_theatres(config: Path | None, *, once: bool, as_json: bool) -> int:
@@ -74,10 +79,11 @@ def theatre_table(rows: list[TheatreRow]) -> Table:
     table = Table("theatre", "state", "image", "headline", "alarms")
     for row in rows:
         state = row.presence.value
-        if row.presence in {Presence.STALE, Presence.GONE}:
+        if row.presence in {TheatrePresence.STALE, TheatrePresence.GONE}:
             state += "" if row.age_ms is None else f", {row.age_ms / 1000.0:.1f} s old"
-        is_live = row.presence is Presence.LIVE
+        is_live = row.presence is TheatrePresence.LIVE
         image = f"<= {row.image_age_ms:.0f} ms old" if is_live and row.image_age_ms is not None else "-"
-        cells = (row.name, state, image, row.headline or "-", ", ".join(row.alarms) or "-")
+        alarms = ", ".join(one.title for one in row.alarms)
+        cells = (row.name, state, image, row.headline or "-", alarms or "-")
         table.add_row(*cells, style=COLOURS[row.presence])
     return table

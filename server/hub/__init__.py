@@ -14,4 +14,9 @@ publisher.py   the theatre's process
 theatre.py     what the web process gives to it
 watcher.py     the hub: newest message of each theatre, and how old it is at most
 theatres.py    list of all theatres
+pictures.py    picture with the live message of its image
+relay.py       live message as the hub sends it to pages
+requests.py    requests of supervisors, and how the theatre answers them
+requester.py   the hub's side of them
+opened.py      theatres that somebody at the hub has opened
 """

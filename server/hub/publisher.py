@@ -27,6 +27,7 @@ from server.hub.claim import RENEW_AFTER_S, Claim
 from server.hub.connection import LOST, HubAddress, HubError, Link, unreachable
 from server.hub.envelope import Beats, Header, packed
 from server.hub.outbox import Outbox
+from server.hub.pictures import picture_packed
 from server.hub.state import state_of
 from server.hub.subjects import STORED, Leaf
 from tracker.errors import NavigationError
@@ -242,7 +243,7 @@ class _Session:
             send = partial(self._send_live, captured_at_s=outgoing.captured_at_s)
             await send(Leaf.LIVE, outgoing.text.encode())
             if outgoing.picture:
-                await send(Leaf.PICTURE, outgoing.picture)
+                await send(Leaf.PICTURE, picture_packed(outgoing.text, outgoing.picture))
             if elapsed_s() >= state_at_s:
                 state_at_s = elapsed_s() + STATE_PERIOD_S
                 await send(Leaf.STATE, state_of(outgoing.text).encode())

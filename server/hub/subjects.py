@@ -9,7 +9,7 @@ class Leaf(StrEnum):
 
     STATE = "state"  # twice a second: headline and alarms without figures
     LIVE = "live"  # the live message of each image, as on /ws/live
-    PICTURE = "picture"  # a small JPEG with lines and without figures
+    PICTURE = "picture"  # a live message and the small JPEG of its image, with lines and without figures
     ALARM = "alarm"  # line of the alarm log; stored
     AUDIT = "audit"  # end of the audit log's hash chain; stored
 
@@ -26,6 +26,10 @@ class Hospital:
     def subject(self, theatre: str, leaf: Leaf) -> str:
         """Subject of a theatre; `*` for all theatres."""
         return f"coaxial.{self.name}.theatre.{theatre}.{leaf}"
+
+    def requests(self, theatre: str) -> str:
+        """Subject on which a theatre receives requests of supervisors."""
+        return f"coaxial.{self.name}.theatre.{theatre}.request"
 
     def beats(self, hub: str) -> str:
         """Subject on which a hub sends its clock; `*` for all hubs."""

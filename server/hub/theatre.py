@@ -18,6 +18,7 @@ from server.alarms.entries import Line
 from server.config import Config
 from server.hub.connection import HubAddress, HubError
 from server.hub.outbox import Outbox
+from server.hub.pictures import PICTURE_WIDTH_PX
 from server.hub.publisher import Outgoing, Publisher, PublisherSettings
 from server.hub.subjects import Leaf
 from server.live import Instant, LiveHub
@@ -28,7 +29,6 @@ from server.sinks import Sink, SinkStatus
 from server.stream.scaling.message_cache import MessageCache
 
 NAME = "hub"
-PICTURE_WIDTH_PX = 320
 PICTURE_QUALITY = 70
 HEAD_PERIOD_S = 1.0
 MAX_PENDING = 10_000

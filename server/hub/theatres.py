@@ -10,20 +10,32 @@ from typing import Any
 from server.hub.connection import LEASE_S
 from server.hub.subjects import Leaf
 from server.hub.watcher import Received
+from server.texts.headline import verdict_title
 from server.texts.language import Language
+from tracker.navigation import Verdict
 
 # A theatre states itself twice a second.
 STALE_AFTER_MS = 2000.0
 GONE_AFTER_MS = LEASE_S * 1000.0
+NOTHING: tuple[str, str, tuple["AlarmRow", ...]] = ("", "none", ())
 
 
-class Presence(StrEnum):
+class TheatrePresence(StrEnum):
     """What is known of a theatre now."""
 
     LIVE = "live"
     UNMEASURED = "unmeasured"  # it sends, and how old its messages are is not known yet
     STALE = "stale"  # its newest message is too old: nothing of it is shown
     GONE = "gone"  # it has sent nothing for so long that its name is free
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlarmRow:
+    """One alarm of a theatre: its level, whether it is active, and its title."""
+
+    priority: str
+    state: str
+    title: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,15 +48,17 @@ class TheatreRow:
         age_ms: Age of its newest message at most; None while it is not measured.
         image_age_ms: Age of the image in it at most; None without one.
         headline: Its headline, or the verdict of its figures without figures; empty unless live.
-        alarms: Titles of its alarms, the highest priority first; empty unless live.
+        tone: Colour of the headline; "none" unless live.
+        alarms: Its alarms, the highest priority first; empty unless live.
     """
 
     name: str
-    presence: Presence
+    presence: TheatrePresence
     age_ms: float | None
     image_age_ms: float | None
     headline: str
-    alarms: tuple[str, ...]
+    tone: str
+    alarms: tuple[AlarmRow, ...]
 
 
 def theatre_rows(
@@ -69,28 +83,37 @@ def _row(name: str, received: Received, *, now_s: float, language: Language) -> 
     age_ms = arrival.message_age_ms(now_s=now_s)
     # Without a measurement its age is at least the time since the arrival.
     known_ms = (now_s - arrival.arrived_s) * 1000.0 if age_ms is None else age_ms
-    presence = Presence.UNMEASURED if age_ms is None else Presence.LIVE
+    presence = TheatrePresence.UNMEASURED if age_ms is None else TheatrePresence.LIVE
     if known_ms > STALE_AFTER_MS:
-        presence = Presence.GONE if known_ms > GONE_AFTER_MS else Presence.STALE
-    headline, alarms = "", ()
-    if presence is Presence.LIVE:
-        headline, alarms = _shown(received.content, language)
+        presence = TheatrePresence.GONE if known_ms > GONE_AFTER_MS else TheatrePresence.STALE
+    headline, tone, alarms = NOTHING
+    if presence is TheatrePresence.LIVE:
+        headline, tone, alarms = _shown(received.content, language)
     return TheatreRow(
         name=name,
         presence=presence,
         age_ms=age_ms,
         image_age_ms=arrival.image_age_ms(now_s=now_s),
         headline=headline,
+        tone=tone,
         alarms=alarms,
     )
 
 
-def _shown(content: bytes, language: Language) -> tuple[str, tuple[str, ...]]:
-    """Return headline and titles of alarms of a state; empty for one of another version."""
+def _shown(content: bytes, language: Language) -> tuple[str, str, tuple[AlarmRow, ...]]:
+    """Return headline, tone and alarms of a state; empty for one of another version."""
     try:
         state: dict[str, Any] = json.loads(content)
         title, verdict = state["title"], state["verdict"]
-        headline = str(verdict).replace("_", " ").upper() if title is None else str(title[language])
-        return headline, tuple(str(alarm["title"][language]) for alarm in state["alarms"])
+        headline = verdict_title(Verdict(verdict), language) if title is None else str(title[language])
+        alarms = tuple(
+            AlarmRow(
+                priority=str(alarm["priority"]),
+                state=str(alarm["state"]),
+                title=str(alarm["title"][language]),
+            )
+            for alarm in state["alarms"]
+        )
+        return headline, str(state["tone"]), alarms
     except (ValueError, KeyError, TypeError, RecursionError):
-        return "", ()
+        return NOTHING

@@ -53,6 +53,16 @@ WS      /scene
 WS      /scene/
 """
 
+# Of the hub, which restricts each to the theatres that the account sees (`server/api/hub.py`).
+SEEN_AT_THE_HUB = """
+GET     /api/theatres
+GET     /api/theatres/{theatre}/picture
+GET     /at/{theatre}/api/dashboard
+GET     /at/{theatre}/api/live
+WS      /at/{theatre}/ws/live
+WS      /at/{theatre}/ws/view
+"""
+
 # All read access; the documentation reveals more of the server than a viewer needs.
 SEEN_BY_OVERSEERS = """
 GET     /metrics
@@ -146,6 +156,7 @@ PUT     /api/recordings/{name}/scenes/{key}
 POST    /api/recordings/{name}/comments
 POST    /api/alarms/hold
 POST    /api/alarms/release
+POST    /api/supervision/marks
 POST    /api/supervision/signatures
 DELETE  /api/supervision/signatures/{signature_id}
 """
@@ -251,9 +262,28 @@ SENT_BY_CAMERAS = """
 WS      /ws/camera
 """
 
+# What a supervisor of a theatre may also do through the hub, where the theatre allows it (`hub.requests`).
+# The theatre applies the rules above to each; the hub passes them on below `/at/{theatre}`.
+THROUGH_HUB = """
+GET     /api/session
+POST    /api/session
+DELETE  /api/session
+POST    /api/alarms/hold
+POST    /api/alarms/release
+GET     /api/supervision/room
+POST    /api/supervision/marks
+GET     /api/supervision/signatures
+POST    /api/supervision/signatures
+DELETE  /api/supervision/signatures/{signature_id}
+GET     /api/plan
+GET     /api/plan/vertebrae/{name}/reference.png
+GET     /api/registration
+"""
+
 # Not an action of a person: a heartbeat of the page every two seconds (the alarm log has the changes), and
-# the instant that a review shows.
+# the instant that a review shows. Marks change nothing, come many times a second, and drawings are logged.
 NOT_AUDITED = """
+POST    /api/supervision/marks
 POST    /api/alarms/screens
 PUT     /api/recordings/{name}/scenes/{key}
 """
@@ -331,6 +361,7 @@ def _rules() -> Iterable[Rule]:
         (PUBLIC, EVERYBODY),
         (OWN, EVERYBODY),
         (SEEN_BY_WATCHERS, WATCHERS),
+        (SEEN_AT_THE_HUB, WATCHERS),
         (SEEN_BY_OVERSEERS, OVERSEERS),
         (DONE_IN_THEATRE, THEATRE),
         (DONE_BY_OVERSEERS, OVERSEERS),
@@ -351,7 +382,16 @@ def _rules() -> Iterable[Rule]:
             )
 
 
-ACCESS_RULES: tuple[Rule, ...] = tuple(_rules())
+# The hub's own audit log has none of them: the theatre's log has, by whom it was done there.
+THROUGH_HUB_KEYS = tuple(_keys(THROUGH_HUB))
+ACCESS_RULES: tuple[Rule, ...] = (
+    *_rules(),
+    *(
+        Rule(method=method, template=f"/at/{{theatre}}{path}", roles=OVERSEERS)
+        for method, path in THROUGH_HUB_KEYS
+    ),
+    Rule(method=SOCKET, template="/at/{theatre}/ws/room", roles=OVERSEERS, is_long_lived=True),
+)
 
 
 def _pattern(template: str) -> "re.Pattern[str]":
@@ -378,3 +418,8 @@ def rules_of(method: str, path: str) -> tuple[list[tuple[Rule, Mapping[str, str]
     # Most specific first: the template with the fewest parameters.
     fitting.sort(key=lambda one: len(one[1]))
     return fitting, bool(found)
+
+
+def is_through_hub(method: str, path: str) -> bool:
+    """Return whether a theatre performs this for a supervisor who asks through the hub."""
+    return any((rule.method, rule.template) in THROUGH_HUB_KEYS for rule, _ in rules_of(method, path)[0])

@@ -19,6 +19,7 @@ from server.supervision.signatures import SignatureService
 
 # Updates are sent at once, with at least this interval; without any, one message a second is a heartbeat.
 MIN_INTERVAL_S, HEARTBEAT_S = 1.0 / 30.0, 1.0
+VISIT_LASTS_S = 5.0
 
 
 @dataclass(slots=True)
@@ -58,6 +59,8 @@ class RoomHub:
         self._clock = clock
         self._lock = threading.Lock()
         self._subscriptions: dict[int, RoomSubscription] = {}
+        # Session and time of the last request, by person.
+        self._visits: dict[str, tuple[RoomSession, float]] = {}
         self._loop: asyncio.AbstractEventLoop | None = None
         holds.on_change = self.notify_threadsafe
         if signatures is not None:
@@ -104,6 +107,34 @@ class RoomHub:
             self.room.leave(subscription.session)
             self.notify()
 
+    def visit(self, person: Person) -> RoomSession:
+        """Return the session of a person who marks by requests, as through the hub, without a socket.
+
+        It ends `VISIT_LASTS_S` after the last request.
+
+        Raises:
+            RoomFull: too many pages are open.
+        """
+        self._end_visits()
+        visit = self._visits.get(person.id)
+        if visit is None:
+            at = utc_text(utc_now(), timespec="seconds")
+            visit = (self.room.enter(person, View.SUPERVISOR, now_s=self.now_s, at=at), 0.0)
+        self._visits[person.id] = (visit[0], self.now_s)
+        return visit[0]
+
+    def visit_of(self, person: Person) -> RoomSession | None:
+        """Return the session of a person who marks by requests now."""
+        self._end_visits()
+        visit = self._visits.get(person.id)
+        return None if visit is None else visit[0]
+
+    def _end_visits(self) -> None:
+        for person_id, (session, at_s) in list(self._visits.items()):
+            if self.now_s - at_s > VISIT_LASTS_S:
+                del self._visits[person_id]
+                self.room.leave(session)
+
     def notify(self) -> None:
         """Wake all subscribers. Call it in the event loop."""
         for subscription in self._subscriptions.values():
@@ -132,6 +163,7 @@ class RoomHub:
     def state(self) -> RoomState:
         """Return the state of the room now."""
         self._retain_ct()
+        self._end_visits()
         now_s, asking = self.now_s, self._holds.requests
         return RoomState(
             now_s=now_s,

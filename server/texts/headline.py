@@ -4,6 +4,7 @@ The verdict depends on the figures of the image only. Alarms that are unacknowle
 next to it; it is green only without such alarms.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -99,6 +100,11 @@ def headline_of(snapshot: NavigationSnapshot | None, alarms: AlarmSnapshot) -> H
         detail=text_of(lambda language: _detail(assessment, language)),
         event=event,
     )
+
+
+def verdict_title(verdict: Verdict, language: Language) -> str:
+    """Return the title of a verdict without its figures, for a list whose entries may be seconds old."""
+    return " ".join(re.sub(r"±?\{\w+\}", "", TITLES[language][verdict]).split())
 
 
 def absence_of(snapshot: NavigationSnapshot) -> tuple[AbsentReason, str]:

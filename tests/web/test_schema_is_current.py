@@ -10,6 +10,10 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from server.config import Config
+from server.hub.connection import HubAddress
+from server.hub.subjects import Hospital
+from server.hub_app import create_hub_app
 from tests.procedure.conftest import serving
 
 # A file to keep; its format version is part of it.
@@ -18,11 +22,23 @@ OPENAPI_FILE = Path(__file__).resolve().parents[2] / "web" / "openapi.json"
 
 
 def schema_of_server(home: Path) -> dict[str, Any]:
-    """The schema of a server with all of its parts, without its version."""
+    """The schema of a server with all of its parts, and of the hub, without its version."""
     with serving(home) as server:
         whole: dict[str, Any] = server.ask("GET", "/api/openapi.json", 200)
+    hub = schema_of_hub()
+    schemas: dict[str, Any] = whole["components"]["schemas"]
+    assert {
+        name for name, one in hub["components"]["schemas"].items() if schemas.get(name, one) != one
+    } == set()
+    whole["paths"] |= hub["paths"]
+    schemas |= hub["components"]["schemas"]
     whole["info"] = {"title": whole["info"]["title"], "version": ""}
     return whole
+
+
+def schema_of_hub() -> dict[str, Any]:
+    address = HubAddress(url="nats://127.0.0.1:4222", hospital=Hospital("clinic"))
+    return create_hub_app(Config(), address, None).openapi()
 
 
 def text_of(schema: dict[str, Any]) -> str:

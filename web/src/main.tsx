@@ -45,6 +45,7 @@ import "./theme/planning.css";
 import "./theme/registration.css";
 import "./theme/supervisor.css";
 import "./theme/board.css";
+import "./theme/hub.css";
 import "./theme/people.css";
 import "./theme/connection.css";
 import "./theme/latency.css";

@@ -124,6 +124,14 @@ class PeopleService:
         session = self._sessions.get(session_id)
         return session is not None and session.is_valid(self._clock())
 
+    def role_of(self, shown: str) -> Role | None:
+        """Return the role of the token of a session or invitation; None for an unknown token."""
+        token = Token.read(shown)
+        record = None if token is None else self._sessions.get(token.id) or self._invitations.get(token.id)
+        if token is None or record is None or not token.matches(record.token_sum):
+            return None
+        return record.person.role
+
     def sessions(self) -> list[Session]:
         """Return all valid sessions, newest first."""
         now = self._clock()

@@ -90,9 +90,9 @@ def reject_unsafe(config: Config) -> None:
             {"host": receive.host},
         )
     hub = config.hub
-    if hub.url is not None and hub.unencrypted is None:
-        scheme, _, host = hub.url.partition("://")
-        if scheme == "nats" and not is_loopback(host):
+    scheme, _, hub_host = (hub.url or "").partition("://")
+    if scheme == "nats" and not is_loopback(hub_host):
+        if hub.unencrypted is None:
             raise ConfigError(
                 "HUB_UNENCRYPTED",
                 f"hub.url is {hub.url}: pictures and figures of the theatre would cross the network readable "
@@ -101,6 +101,21 @@ def reject_unsafe(config: Config) -> None:
                 "the theatres'.",
                 {"url": hub.url},
             )
+        if hub.requests:
+            raise ConfigError(
+                "HUB_UNENCRYPTED",
+                f"hub.requests is true, but hub.url is {hub.url} without encryption: anybody on this network "
+                "could read the supervisors' sessions, and act as they may",
+                "Write tls:// in hub.url, or set hub.requests to false.",
+                {"url": hub.url},
+            )
+    if hub.requests and config.security.sign_in == "off":
+        raise ConfigError(
+            "SIGN_IN_NEEDED",
+            "hub.requests is true, but security.sign_in is off: anybody at the hub could act in this theatre",
+            "Set security.sign_in to required, or hub.requests to false.",
+            {"url": hub.url},
+        )
     cosign = config.supervision.cosign
     if config.security.sign_in == "off" and "required" in (cosign.plan, cosign.registration):
         raise ConfigError(

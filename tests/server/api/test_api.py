@@ -216,7 +216,14 @@ def test_each_route_documents_what_it_answers(client: TestClient) -> None:
         "/metrics",
     }
     # Without a store there are no cases and no steps; alarms and the rehearsal need none.
-    rooms = ("/api/alarms", "/api/rehearsal", "/api/session", "/api/people", "/api/audit")
+    rooms = (
+        "/api/alarms",
+        "/api/rehearsal",
+        "/api/session",
+        "/api/people",
+        "/api/audit",
+        "/api/supervision/marks",
+    )
     others = {path for path in paths if path.startswith(rooms)}
     assert set(paths) == watched | others
     for operation in [each for methods in paths.values() for each in methods.values()]:

@@ -13,6 +13,7 @@ import pytest
 
 from server.hub.connection import HubAddress
 from server.hub.outbox import Outbox
+from server.hub.pictures import picture_unpacked
 from server.hub.publisher import OUTBOX_NUMBER, Outgoing, Publisher, PublisherSettings
 from server.hub.state import state_of
 from server.hub.subjects import Hospital, Leaf
@@ -152,7 +153,8 @@ def test_a_hub_gets_state_numbers_and_picture_and_knows_how_old_they_are(
     assert live is not None
     assert picture is not None
     assert json.loads(live.content) == json.loads(running.text)
-    assert picture.content == b"jpeg"
+    text, jpeg = picture_unpacked(picture.content)
+    assert (json.loads(text), jpeg) == (json.loads(running.text), b"jpeg")
     age_ms = live.arrival.image_age_ms(now_s=live.arrival.arrived_s)
     assert age_ms is not None
     assert age_ms >= 250.0

@@ -53,6 +53,17 @@ def test_figures_do_not_cross_a_network_in_plain_text_unless_that_is_stated(tmp_
     reject_unsafe(config_with(tmp_path, f"url: nats://nats.example:4222, {stated}"))
 
 
+def test_supervisors_act_through_the_hub_only_with_encryption_and_sign_in(tmp_path: Path) -> None:
+    reject_unsafe(config_with(tmp_path, "url: nats://127.0.0.1:4222, requests: true"))
+    reject_unsafe(config_with(tmp_path, "url: tls://nats.example:4222, requests: true"))
+    stated = "unencrypted: anybody on this network reads the theatres"
+    with pytest.raises(ConfigError, match="read the supervisors' sessions"):
+        reject_unsafe(config_with(tmp_path, f"url: nats://nats.example:4222, {stated}, requests: true"))
+    without = {"hub": {"url": "tls://nats.example:4222", "requests": True}, "security": {"sign_in": "off"}}
+    with pytest.raises(ConfigError, match="anybody at the hub could act"):
+        reject_unsafe(Config.model_validate(without))
+
+
 @pytest.mark.parametrize("content", [None, "", "name", ":password", "one:two\nthree:four"])
 def test_a_file_without_user_and_password_is_named(tmp_path: Path, content: str | None) -> None:
     if content is not None:

@@ -52,6 +52,7 @@ class Guarded:
     door: TestClient
     people: PeopleService
     store: CaseStore
+    live: LiveHub
     clock: Clock
 
     def invited(self, role: Role = Role.OPERATOR, **wanted: Any) -> str:  # noqa: ANN401  as Wanted takes it
@@ -105,7 +106,7 @@ def guarded(
             )
             app = create_app(parts)
             with TestClient(app, base_url=f"http://{HOST}", raise_server_exceptions=False) as door:
-                yield Guarded(app=app, door=door, people=people, store=store, clock=clock)
+                yield Guarded(app=app, door=door, people=people, store=store, live=hub, clock=clock)
     finally:
         jobs.close()
 

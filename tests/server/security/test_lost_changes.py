@@ -37,7 +37,7 @@ def written(tmp_path: Path) -> Path:
 def started(folder: Path) -> list[tuple[int, bool, bool]]:
     """Version, damage and validity of all documents after the next start."""
     with Home(folder) as home, CaseStore(home) as store:
-        AccessControl.of(Config(), store, new_operator_link=False)
+        AccessControl.of(Config(), store.home.folder, new_operator_link=False).follow(store)
         (case,) = store.list()
         headings = [one.heading for one in store.outline(case.id)]
         return [(one.version, one.is_damaged, store.is_current(one)) for one in headings]

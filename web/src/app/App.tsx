@@ -1,5 +1,6 @@
 import { lazy, Suspense, useEffect, type ComponentType, type ReactNode } from "react";
 import { useLocation } from "wouter";
+import { OPENED } from "../hub/openedTheatre";
 import { SignInPage } from "../signin/SignInPage";
 import { LiveProvider } from "../live/LiveContext";
 import { LookReport } from "../room/LookReport";
@@ -17,6 +18,8 @@ const VIEWS: Record<ViewName, ComponentType> = {
   supervisor: lazy(async () => ({ default: (await import("../supervisor/SupervisorView")).SupervisorView })),
 };
 
+const TheatreList = lazy(async () => ({ default: (await import("../hub/TheatreList")).TheatreList }));
+const OpenedTheatre = lazy(async () => ({ default: (await import("../hub/OpenedTheatre")).OpenedTheatre }));
 const CameraPage = lazy(async () => ({ default: (await import("../phone/CameraPage")).CameraPage }));
 // Only the document at the camera's address has permission to use a camera.
 const LOADED_AT = location.pathname;
@@ -26,6 +29,13 @@ export function App(): ReactNode {
   const { session } = useSession();
   const [path] = useLocation();
   if (session.state !== "in" || path === "/enter") return <SignInPage />;
+  if (session.isHub) {
+    return (
+      <Suspense fallback={null}>
+        {OPENED === null ? <TheatreList /> : <OpenedTheatre name={OPENED} />}
+      </Suspense>
+    );
+  }
   if (isCameraAt(path, session.who.role)) {
     return <Suspense fallback={null}>{LOADED_AT === CAMERA_PATH ? <CameraPage /> : <LoadedAnew />}</Suspense>;
   }

@@ -2,6 +2,7 @@ import { Alert, Button, Modal } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { getPeople } from "../api";
+import { OWN_SERVER } from "../hub/openedTheatre";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useQuery } from "../rest/useQuery";
 import { useAction } from "../rest/useAction";
@@ -19,7 +20,7 @@ export function SignedIn(): ReactNode {
   const { busy, rejection, run, forget } = useAction();
   const isOperator = session.state === "in" && session.who.role === "operator";
   const { data: people, rejection: silent } = useQuery(
-    async (signal) => (isConfirming && isOperator ? getPeople({ signal }) : null),
+    async (signal) => (isConfirming && isOperator ? getPeople({ ...OWN_SERVER, signal }) : null),
     { key: String(isConfirming && isOperator) },
   );
   if (session.state !== "in" || !session.required) return null;

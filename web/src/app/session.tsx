@@ -10,6 +10,7 @@ import {
   type ReactNode,
 } from "react";
 import { deleteSession, getSession } from "../api";
+import { OWN_SERVER } from "../hub/openedTheatre";
 import { onSessionGone, Rejection } from "../rest/client";
 import { sessionAfter, type Session } from "./sessionAfter";
 
@@ -31,8 +32,8 @@ const SessionContext = createContext<SessionValue | null>(null);
 /** The user, or the code of the reason why there is none. */
 async function ask(): Promise<Session | string> {
   try {
-    const { name, role, sign_in_required } = await getSession();
-    return { state: "in", who: { name, role }, required: sign_in_required };
+    const { name, role, sign_in_required, is_hub } = await getSession(OWN_SERVER);
+    return { state: "in", who: { name, role }, required: sign_in_required, isHub: is_hub };
   } catch (error) {
     if (error instanceof Rejection) return error.problem.code;
     throw error;
@@ -58,7 +59,7 @@ export function SessionProvider({ children }: { children: ReactNode }): ReactNod
   }, []);
 
   const leave = useCallback(async () => {
-    await deleteSession();
+    await deleteSession(OWN_SERVER);
     setSession({ state: "out", expired: false });
   }, []);
 

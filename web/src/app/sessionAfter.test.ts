@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { sessionAfter, type Session } from "./sessionAfter";
 
-const inside: Session = { state: "in", who: { name: "Ito", role: "operator" }, required: true };
+const inside: Session = { state: "in", who: { name: "Ito", role: "operator" }, required: true, isHub: false };
 const asking: Session = { state: "asking", silent: false };
 
 test.each<[string, Session, Session | string, Session]>([

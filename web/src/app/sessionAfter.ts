@@ -10,7 +10,8 @@ export interface Who {
 export type Session =
   /** `silent` if the server has not answered. */
   | { state: "asking"; silent: boolean }
-  | { state: "in"; who: Who; required: boolean }
+  /** `isHub` if this server is the hub of many theatres. */
+  | { state: "in"; who: Who; required: boolean; isHub: boolean }
   /** Nobody is signed in; `expired` if somebody was. */
   | { state: "out"; expired: boolean };
 
@@ -32,6 +33,7 @@ function same(one: Session, other: Session): boolean {
     other.state === "in" &&
     one.who.name === other.who.name &&
     one.who.role === other.who.role &&
-    one.required === other.required
+    one.required === other.required &&
+    one.isHub === other.isHub
   );
 }

@@ -1,4 +1,5 @@
 import { useRef, type ReactNode } from "react";
+import { OPENED } from "../hub/openedTheatre";
 import { setText } from "../panes/setText";
 import { useTexts } from "../texts/TextsContext";
 import type { PictureDelivery } from "./pictureDelivery";
@@ -11,7 +12,9 @@ export function ConnectionNote(): ReactNode {
   const { connection: connectionTexts } = useTexts();
   const note = useRef<HTMLParagraphElement>(null);
   usePainter(({ video, pictureDelivery }) => {
-    setText(note.current, video.live ? connectionText(pictureDelivery, connectionTexts) : "");
+    // A hub's pictures are few and small by design.
+    const isShown = video.live && OPENED === null;
+    setText(note.current, isShown ? connectionText(pictureDelivery, connectionTexts) : "");
   });
   return <p className="line-note" data-testid="line-note" ref={note} />;
 }

@@ -1,5 +1,6 @@
 // Connects the pure parts to the browser: WebSockets, timers, requests, visibility.
 import { type DashboardMessage, getDashboard, getLive } from "../api";
+import { OPENED } from "../hub/openedTheatre";
 import { Rejection } from "../rest/client";
 import { storedPictureChoice, storePictureChoice } from "./storedPictureChoice";
 import { MessageConnection } from "./messageConnection";
@@ -16,6 +17,7 @@ export type Dashboard = DashboardMessage;
 
 const ASK_WHEN_QUIET_MS = 300;
 const ASK_TIMEOUT_MS = 450;
+const ASK_AT_HUB_EVERY_MS = 1000;
 const COMPARE_CLOCKS_EVERY_MS = 5000;
 const NEW_LINE_WHEN_QUIET_MS = 2500;
 const MEASURE_EVERY_PICTURES = 5;
@@ -34,7 +36,8 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     const requestedNowMs = performance.now();
     const timeout = AbortSignal.any([signal, AbortSignal.timeout(ASK_TIMEOUT_MS)]);
     try {
-      if (live.hasMessage) {
+      // The hub answers for itself; only a recent message of the theatre is a sign of the theatre.
+      if (live.hasMessage || OPENED !== null) {
         requestedAtMs = requestedNowMs;
         live.receiveAnswer(await getLive({ signal: timeout }), requestedNowMs, generation);
       } else {
@@ -44,7 +47,7 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
       }
     } catch (error) {
       // A rejection is an answer too; a missing one is measured by `quietMs`.
-      const isAnswer = error instanceof Rejection && error.status !== null;
+      const isAnswer = OPENED === null && error instanceof Rejection && error.status !== null;
       if (isAnswer) live.receiveAnswer(null, requestedNowMs, generation);
     } finally {
       isRequesting = false;
@@ -62,7 +65,9 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
       return;
     }
     const compareClocks = live.hasMessage && sinceRequestMs > COMPARE_CLOCKS_EVERY_MS;
-    if (!isRequesting && (quietMs > ASK_WHEN_QUIET_MS || compareClocks)) void request();
+    // The hub rejects at once while the theatre is silent.
+    const isSoon = OPENED !== null && sinceRequestMs < ASK_AT_HUB_EVERY_MS;
+    if (!isRequesting && !isSoon && (quietMs > ASK_WHEN_QUIET_MS || compareClocks)) void request();
   };
 
   const timer = setInterval(update, UPDATE_EVERY_MS);

@@ -9,6 +9,7 @@ import { OperatorTop } from "./OperatorTop";
 import { pageAt, PAGES } from "./pages";
 import { useProcedure } from "../app/procedure";
 import { WithStepActions } from "./StepActions";
+import { SinkNotes } from "./SinkNotes";
 import { StepHead } from "./StepHead";
 import { StepRail } from "./StepRail";
 
@@ -47,6 +48,7 @@ export function OperatorView(): ReactNode {
           )}
         </main>
       </div>
+      <SinkNotes />
     </div>
   );
 }

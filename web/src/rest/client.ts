@@ -2,6 +2,7 @@
 // remedy. `main.tsx` imports this file, before anything is requested.
 import type { ProblemMessage as Problem } from "../api";
 import { client } from "../api/client.gen";
+import { throughHub } from "../hub/openedTheatre";
 import { pageLanguage } from "../texts/pageLanguage";
 
 export type { Problem };
@@ -9,7 +10,7 @@ export type { Problem };
 const gone = new EventTarget();
 const GONE = "session-gone";
 
-client.setConfig({ baseUrl: location.origin, cache: "no-store" });
+client.setConfig({ baseUrl: location.origin + throughHub(""), cache: "no-store" });
 client.interceptors.request.use((request) => {
   request.headers.set("Accept-Language", pageLanguage());
   return request;

@@ -56,7 +56,7 @@ export function SignInPage(): ReactNode {
           </section>
         )}
         {session.state === "in" && !busy && (
-          <Link className="enter-on" href={homeOf(session.who.role)}>
+          <Link className="enter-on" href={session.isHub ? "/" : homeOf(session.who.role)}>
             {texts.goOn}
           </Link>
         )}

@@ -4,6 +4,7 @@ import { useLocation } from "wouter";
 import { useSession } from "../app/session";
 import { homeOf } from "../app/views";
 import { postSession } from "../api";
+import { OWN_SERVER } from "../hub/openedTheatre";
 import { Rejection } from "../rest/client";
 import { takeToken } from "./token";
 
@@ -26,10 +27,10 @@ export function useSignIn(): SignIn {
     trying.current = true;
     setBusy(true);
     setRejection(null);
-    postSession({ body: { invitation: token } })
-      .then(({ role }) => {
+    postSession({ ...OWN_SERVER, body: { invitation: token } })
+      .then(({ role, is_hub }) => {
         refetch();
-        go(homeOf(role), { replace: true });
+        go(is_hub ? "/" : homeOf(role), { replace: true });
       })
       .catch((error: unknown) => {
         refetch();

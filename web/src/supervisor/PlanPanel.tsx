@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { formatNumber } from "../live/rounding";
 import { getPlan } from "../api";
+import { throughHub } from "../hub/openedTheatre";
 import { QueryStatus } from "../rest/QueryStatus";
 import { useQuery } from "../rest/useQuery";
 import type { Signable } from "../room/messages";
@@ -44,7 +45,9 @@ export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
 function Vertebra({ vertebra, version }: { vertebra: VertebraShown; version: string }): ReactNode {
   const { supervisor, language } = useTexts();
   const texts = supervisor.plan;
-  const picture = `/api/plan/vertebrae/${encodeURIComponent(vertebra.name)}/reference.png?version=${version}`;
+  const picture = throughHub(
+    `/api/plan/vertebrae/${encodeURIComponent(vertebra.name)}/reference.png?version=${version}`,
+  );
   return (
     <article className="vertebra">
       <div>

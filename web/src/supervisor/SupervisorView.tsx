@@ -9,14 +9,11 @@ import { PictureSize } from "../live/PictureSize";
 import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
 import { AuditLog } from "../operator/people/AuditLog";
-import { EmptyState } from "../panes/EmptyState";
 import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
 import { VideoPane } from "../panes/VideoPane";
 import { Recordings } from "../recording/Recordings";
 import { RecordingState } from "../recording/RecordingState";
-import type { Signable } from "../room/messages";
-import { useRoomSnapshot } from "../room/RoomContext";
 import { ViewerLooks, Viewers } from "../room/Viewers";
 import { LayoutBar } from "../theatre/layouts/LayoutBar";
 import { useIsWide, WIDE_BOARD } from "../theatre/layouts/useIsWide";
@@ -29,8 +26,7 @@ import { AgesStrip } from "./Ages";
 import { Fold } from "./Fold";
 import { HoldPanel } from "./HoldPanel";
 import { LogPanel } from "./LogPanel";
-import { PlanPanel } from "./PlanPanel";
-import { RegistrationPanel } from "./RegistrationPanel";
+import { Signables } from "./Signables";
 import { StepsShown } from "./StepsShown";
 
 /** View of the supervisor: observes, points, signs, asks to hold. It controls nothing. */
@@ -108,49 +104,5 @@ function Board(): ReactNode {
         </div>
       </MarkingProvider>
     </main>
-  );
-}
-
-/** Plan and registration. Their signature state comes from the room, so it is shown while they are closed. */
-function Signables(): ReactNode {
-  const { supervisor: own, rest } = useTexts();
-  const { isConnected, firstMessage, signable } = useRoomSnapshot();
-  const unheard = firstMessage === "awaited" ? rest.loading : own.notKnown;
-  const plan = signable?.find((one) => one.what === "plan") ?? null;
-  const registration = signable?.find((one) => one.what === "registration") ?? null;
-  return (
-    <>
-      <Fold id="plan" group="sign" title={own.plan.title} aside={<SignState signable={plan} />}>
-        {plan === null ? (
-          <EmptyState drawing="plan" sentence={isConnected ? own.plan.none : unheard} />
-        ) : (
-          <PlanPanel signable={plan} />
-        )}
-      </Fold>
-      <Fold
-        id="registration"
-        group="sign"
-        title={own.registration.title}
-        aside={<SignState signable={registration} />}
-      >
-        {registration === null ? (
-          <EmptyState drawing="registration" sentence={isConnected ? own.registration.none : unheard} />
-        ) : (
-          <RegistrationPanel signable={registration} />
-        )}
-      </Fold>
-    </>
-  );
-}
-
-function SignState({ signable }: { signable: Signable | null }): ReactNode {
-  const texts = useTexts().supervisor.sign;
-  if (signable?.document_id == null) return null;
-  const waits = !signable.is_cosigned && signable.requirement === "required";
-  return (
-    <span className="sign-state" data-state={signable.is_cosigned ? "done" : waits ? "waits" : "open"}>
-      <span aria-hidden="true">{signable.is_cosigned ? "✓" : waits ? "▲" : "○"}</span>{" "}
-      {signable.is_cosigned ? texts.done : waits ? texts.due : texts.open}
-    </span>
   );
 }

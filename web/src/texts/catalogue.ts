@@ -7,6 +7,7 @@ import type { CameraTexts } from "./camera/en";
 import type { CaseTexts } from "./case/en";
 import type { CheckTexts } from "./check/en";
 import type { HelpTexts } from "./help/en";
+import type { HubTexts } from "./hub/en";
 import type { SignInTexts } from "./signin/en";
 import type { CertificateTexts } from "./certificate/en";
 import type { LatencyTexts } from "./latency/en";
@@ -148,6 +149,7 @@ export interface Texts {
   setupCheck: SetupCheckTexts;
   report: ReportTexts;
   supervisor: SupervisorTexts;
+  hub: HubTexts;
   marks: MarksTexts;
   room: RoomTexts;
 }

@@ -4,6 +4,7 @@ import { cameraDe } from "./camera/de";
 import { caseDe } from "./case/de";
 import { checkDe } from "./check/de";
 import { helpDe } from "./help/de";
+import { hubDe } from "./hub/de";
 import { signInDe } from "./signin/de";
 import { certificateDe } from "./certificate/de";
 import { latencyDe } from "./latency/de";
@@ -189,6 +190,7 @@ export const de: Texts = {
   setupCheck: setupCheckDe,
   report: reportDe,
   supervisor: supervisorDe,
+  hub: hubDe,
   marks: marksDe,
   room: roomDe,
 };

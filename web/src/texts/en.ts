@@ -4,6 +4,7 @@ import { cameraEn } from "./camera/en";
 import { caseEn } from "./case/en";
 import { checkEn } from "./check/en";
 import { helpEn } from "./help/en";
+import { hubEn } from "./hub/en";
 import { signInEn } from "./signin/en";
 import { certificateEn } from "./certificate/en";
 import { latencyEn } from "./latency/en";
@@ -191,6 +192,7 @@ export const en: Texts = {
   setupCheck: setupCheckEn,
   report: reportEn,
   supervisor: supervisorEn,
+  hub: hubEn,
   marks: marksEn,
   room: roomEn,
 };

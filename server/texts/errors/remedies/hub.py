@@ -4,6 +4,40 @@ from server.texts.language import Text
 
 HUB: tuple[Text, ...] = (
     {
+        "en": "Close pages that are not needed.",
+        "de": "Nicht benötigte Seiten schließen.",
+    },
+    {
+        "en": "Draw less at once, or wait a second.",
+        "de": "Weniger auf einmal zeichnen, oder eine Sekunde warten.",
+    },
+    {
+        "en": "Ask the operator of the theatre for an invitation as supervisor.",
+        "de": "Bei der Bedienung des OPs um eine Einladung als Aufsicht bitten.",
+    },
+    {
+        "en": "Look at the state of the theatre, or call it, before you ask again.",
+        "de": "Den Zustand des OPs ansehen oder dort anrufen, dann erst erneut versuchen.",
+    },
+    {
+        "en": "Look at the state of the theatre, then ask again.",
+        "de": "Den Zustand des OPs ansehen, dann erneut versuchen.",
+    },
+    {
+        "en": "See its state in the list of theatres; the people in the theatre have their own screen.",
+        "de": "Den Zustand in der Liste der OPs ansehen; im OP gibt es einen eigenen Bildschirm.",
+    },
+    {
+        "en": "Use the theatre's own page, or call it. The theatre takes requests while it is connected and "
+        "hub.requests is true in its settings.",
+        "de": "Die eigene Seite des OPs benutzen oder dort anrufen. Der OP nimmt Anforderungen an, solange "
+        "er verbunden ist und in seinen Einstellungen hub.requests true ist.",
+    },
+    {
+        "en": "Use the theatre's own page.",
+        "de": "Die eigene Seite des OPs benutzen.",
+    },
+    {
         "en": "Check the disk and the rights of this folder. A damaged outbox may be moved away while the "
         "server is stopped: what the hub has not stored yet is then in the theatre's own logs only.",
         "de": "Die Platte und die Rechte dieses Ordners prüfen. Ein beschädigter Postausgang darf bei "
