@@ -1,5 +1,5 @@
 import { NumberInput } from "@mantine/core";
-import { useState, type ReactNode } from "react";
+import { useEffect, useRef, useState, type ReactNode } from "react";
 import { useProcedure } from "../../app/procedure";
 import { formatNumber } from "../../live/rounding";
 import { QueryStatus } from "../../rest/QueryStatus";
@@ -17,6 +17,7 @@ import { interpolate } from "../../texts/interpolate";
 import { StepActions } from "../StepActions";
 import { ConfirmButton } from "../parts/ConfirmButton";
 import { formatTime } from "../parts/format";
+import { bringIntoView } from "../parts/useIntoView";
 import { ConfirmOrCancelButton } from "../registration/ConfirmOrCancelButton";
 import { RegistrationRejection } from "../registration/RegistrationRejection";
 import { useMadeBy } from "../registration/useMadeBy";
@@ -44,6 +45,12 @@ function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
     key: stepsKey,
   });
   const acting = useAction();
+  const { rejection } = acting;
+  // The button is always in sight, the list is below the picture.
+  const rejected = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    if (rejection !== null && rejected.current !== null) bringIntoView(rejected.current);
+  }, [rejection]);
   const act = (request: () => Promise<Placements>): void => {
     void acting
       .run(async () => {
@@ -80,7 +87,9 @@ function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
           }}
         />
       )}
-      <RegistrationRejection rejection={acting.rejection} />
+      <div ref={rejected}>
+        <RegistrationRejection rejection={rejection} />
+      </div>
     </section>
   );
 }
