@@ -24,6 +24,9 @@ import { useMadeBy } from "../registration/useMadeBy";
 import { useSides } from "../registration/useSides";
 import { placedFigures } from "./placedFigures";
 
+// The active channel, which the button names, is also switched in the card beside and on other tablets.
+const ASK_EVERY_MS = 1000;
+
 type Channel = ChannelStateMessage;
 type Placements = PlacementsMessage;
 
@@ -33,7 +36,7 @@ export function PlacedScrews(): ReactNode {
   const plan = procedure.data?.steps.find((one) => one.step === "plan");
   const isPlanned = plan !== undefined && plan.document_id !== null;
   if (!isPlanned) return null;
-  // Plan, registration and active channel change the list.
+  // Plan and registration change the list.
   const key = procedure.data?.steps.map((one) => `${one.state} ${one.document_id ?? ""}`).join(" ") ?? "";
   return <Channels stepsKey={key} />;
 }
@@ -43,6 +46,7 @@ function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
   const madeBy = useMadeBy();
   const query = useQuery((signal) => getNavigationPlacements({ signal }), {
     key: stepsKey,
+    everyMs: ASK_EVERY_MS,
   });
   const acting = useAction();
   const { rejection } = acting;
