@@ -53,6 +53,8 @@ export function Collection({ gates, onCalibrating, onDiscarded, onOver }: Collec
       onCalibrating();
     });
   };
+  // The calibration was stored, here or elsewhere: the page around asks for it a moment later.
+  if (query.rejection?.problem.code === "COLLECTION_MISSING") return null;
   if (data === null) return <QueryStatus query={query} />;
   const working = followed.job !== null && !isOver(followed.job);
   const enough = data.missing.length === 0;
