@@ -91,7 +91,8 @@ class CameraStep(CollectingStep[BoardCollection]):
                 case, values["report"], values["plots"], made_by, controls=controls, device=device
             )
             # Nobody needs further views, and detecting the board in each image takes much of a processor.
-            collection.stop()
+            # Ended here, because the page that started the job may have been left or loaded again meanwhile.
+            self._end(collection)
             return {"document_id": document.id, "version": document.version, **values["report"]}
 
         return self._jobs.start(

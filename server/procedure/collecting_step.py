@@ -68,3 +68,10 @@ class CollectingStep(Generic[Collection]):
             if self._collection is not None:
                 self._collection.stop()
             self._collection = None
+
+    def _end(self, collection: Collection) -> None:
+        """Stop this collection and discard its data; one that was started meanwhile goes on."""
+        with self._collection_lock:
+            collection.stop()
+            if self._collection is collection:
+                self._collection = None

@@ -185,6 +185,7 @@ def switch_to_the_left(tablet: Tablet) -> None:
     tablet.tap("channel-L3-left")
     tablet.tap("channel-L3-left-sure")
     tablet.reads("active-channel", "L3 left")
+    tablet.reads("place-here", "L3 left")
     assert steps(tablet)[3:5] == ["done", "done"]
 
 

@@ -62,8 +62,9 @@ def test_a_camera_from_sent_images_is_the_true_one_and_is_used_at_once(server: S
     assert reported["running"]
     job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
     assert job["state"] == "done", job["problem"]
-    # It detects no board while others navigate.
-    assert not server.ask("GET", "/api/camera/collection", 200)["running"]
+    # It detects no board while others navigate, and a page that is loaded again offers no second one.
+    assert not server.ask("GET", "/api/camera", 200)["collecting"]
+    assert server.ask("GET", "/api/camera/collection", 409)["code"] == "COLLECTION_MISSING"
     report = job["result"]
     assert report["rms_px"] < 0.1
     assert sum(view["used"] for view in report["views"]) == len(images)

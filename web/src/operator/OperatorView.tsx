@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { useLocation } from "wouter";
+import { Redirect, useLocation, useSearch } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { ConsentQuestion } from "../recording/ConsentQuestion";
@@ -17,12 +17,18 @@ import { StepRail } from "./StepRail";
 export function OperatorView(): ReactNode {
   const texts = useTexts();
   const [path] = useLocation();
+  const search = useSearch();
   const procedure = useProcedure();
   const { data, rejection } = procedure;
   // Before the first answer the next step is unknown; without one the page starts with the list of cases.
   const next =
     data === null ? (rejection === null ? null : "case") : ((data.case_id && data.next_step) ?? "case");
-  const page = pageAt(path) ?? PAGES.find((one) => one.step === next || one.name === next) ?? null;
+  const named = pageAt(path);
+  const page = named ?? PAGES.find((one) => one.step === next || one.name === next) ?? null;
+  // From here on the address names the page: otherwise it would change under a finger as soon as another step is next
+  // or the server does not answer.
+  if (named === null && data !== null && page !== null)
+    return <Redirect to={`/operator/${page.name}${search === "" ? "" : `?${search}`}`} replace />;
   return (
     <div className="operator">
       <a className="skip" href="#step">

@@ -56,8 +56,12 @@ export function CameraPage(): ReactNode {
             {data.collecting && (
               <Collection
                 gates={gates}
-                onCalibrated={() => {
+                onCalibrating={() => {
                   setCalibratedHere(true);
+                }}
+                onDiscarded={() => {
+                  setCalibratedHere(false);
+                  changed();
                 }}
                 onOver={changed}
               />

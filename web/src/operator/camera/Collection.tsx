@@ -24,12 +24,15 @@ const ASK_EVERY_MS = 350;
 
 interface CollectionProps {
   gates: Gates;
-  onCalibrated: () => void;
+  /** A calibration was started. */
+  onCalibrating: () => void;
+  onDiscarded: () => void;
+  /** The calibration has ended; if it succeeded, so has the collection. */
   onOver: () => void;
 }
 
 /** Collected views: coverage, tilts, missing conditions; then the calibration. */
-export function Collection({ gates, onCalibrated, onOver }: CollectionProps): ReactNode {
+export function Collection({ gates, onCalibrating, onDiscarded, onOver }: CollectionProps): ReactNode {
   const texts = useTexts().camera;
   const madeBy = useMaker();
   const doing = useAction();
@@ -37,23 +40,21 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
     everyMs: ASK_EVERY_MS,
   });
   const { data, refetch } = query;
-  const end = async (): Promise<void> => {
+  const discard = async (): Promise<void> => {
     await doing.run(async () => {
       await deleteCameraCollection();
     });
-    onOver();
+    onDiscarded();
   };
-  const followed = useJob((job) => {
-    // After success the views are discarded; after a failure they stay for another attempt.
-    if (job.state !== "done") return;
-    onCalibrated();
-    void end();
-  });
+  const followed = useJob(onOver);
   const calibrate = (): void => {
     void doing.run(async () => {
       followed.follow(await postCameraCalibration({ body: { made_by: madeBy } }));
+      onCalibrating();
     });
   };
+  // The calibration was stored, here or elsewhere: the page around asks for it a moment later.
+  if (query.rejection?.problem.code === "COLLECTION_MISSING") return null;
   if (data === null) return <QueryStatus query={query} />;
   const working = followed.job !== null && !isOver(followed.job);
   const enough = data.missing.length === 0;
@@ -95,7 +96,11 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
       </ul>
       <JobProgress followed={followed} />
       <StepActions>
-        <ConfirmButton confirmLabel={texts.throwAwaySure} onConfirm={() => void end()} testId="throw-away">
+        <ConfirmButton
+          confirmLabel={texts.throwAwaySure}
+          onConfirm={() => void discard()}
+          testId="throw-away"
+        >
           {texts.throwAway}
         </ConfirmButton>
         <Button

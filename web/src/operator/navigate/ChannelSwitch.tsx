@@ -14,6 +14,9 @@ import { ConfirmOrCancelButton } from "../registration/ConfirmOrCancelButton";
 import { useMadeBy } from "../registration/useMadeBy";
 import { useSides } from "../registration/useSides";
 
+// It is also switched on other tablets.
+const ASK_EVERY_MS = 1000;
+
 /** The drilled channel; switching needs two touches and states what it ends. */
 export function ChannelSwitch(): ReactNode {
   const texts = useTexts().navigate;
@@ -24,7 +27,7 @@ export function ChannelSwitch(): ReactNode {
   const plan = useQuery(
     // Without a plan there is nothing to switch to.
     async (signal) => (isPlanned === true ? getPlan({ signal }) : null),
-    { key: String(isPlanned) },
+    { key: String(isPlanned), everyMs: ASK_EVERY_MS },
   );
   const { view } = useLive();
   const proposed = proposedChannel(view);

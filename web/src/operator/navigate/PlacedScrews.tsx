@@ -1,5 +1,5 @@
 import { NumberInput } from "@mantine/core";
-import { useState, type ReactNode } from "react";
+import { useEffect, useRef, useState, type ReactNode } from "react";
 import { useProcedure } from "../../app/procedure";
 import { formatNumber } from "../../live/rounding";
 import { QueryStatus } from "../../rest/QueryStatus";
@@ -17,11 +17,15 @@ import { interpolate } from "../../texts/interpolate";
 import { StepActions } from "../StepActions";
 import { ConfirmButton } from "../parts/ConfirmButton";
 import { formatTime } from "../parts/format";
+import { bringIntoView } from "../parts/useIntoView";
 import { ConfirmOrCancelButton } from "../registration/ConfirmOrCancelButton";
 import { RegistrationRejection } from "../registration/RegistrationRejection";
 import { useMadeBy } from "../registration/useMadeBy";
 import { useSides } from "../registration/useSides";
 import { placedFigures } from "./placedFigures";
+
+// The active channel, which the button names, is also switched in the card beside and on other tablets.
+const ASK_EVERY_MS = 1000;
 
 type Channel = ChannelStateMessage;
 type Placements = PlacementsMessage;
@@ -32,7 +36,7 @@ export function PlacedScrews(): ReactNode {
   const plan = procedure.data?.steps.find((one) => one.step === "plan");
   const isPlanned = plan !== undefined && plan.document_id !== null;
   if (!isPlanned) return null;
-  // Plan, registration and active channel change the list.
+  // Plan and registration change the list.
   const key = procedure.data?.steps.map((one) => `${one.state} ${one.document_id ?? ""}`).join(" ") ?? "";
   return <Channels stepsKey={key} />;
 }
@@ -42,8 +46,15 @@ function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
   const madeBy = useMadeBy();
   const query = useQuery((signal) => getNavigationPlacements({ signal }), {
     key: stepsKey,
+    everyMs: ASK_EVERY_MS,
   });
   const acting = useAction();
+  const { rejection } = acting;
+  // The button is always in sight, the list is below the picture.
+  const rejected = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    if (rejection !== null && rejected.current !== null) bringIntoView(rejected.current);
+  }, [rejection]);
   const act = (request: () => Promise<Placements>): void => {
     void acting
       .run(async () => {
@@ -80,7 +91,9 @@ function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
           }}
         />
       )}
-      <RegistrationRejection rejection={acting.rejection} />
+      <div ref={rejected}>
+        <RegistrationRejection rejection={rejection} />
+      </div>
     </section>
   );
 }
