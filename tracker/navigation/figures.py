@@ -104,7 +104,6 @@ def drill_figures(
             **dict.fromkeys(missing, Figure(value=nan)),
         }
     certain, spread, clearance = analysis.certain, analysis.spread, analysis.clearance
-    risk_ratio = max(analysis.now.through_ratio, analysis.lookahead.through_ratio)
     depth_error_95 = rounded_up(NORMAL_95 * spread.sd_depth_mm, decimals=2)
     return {
         FigureName.ENTRY: _at_most(
@@ -120,8 +119,8 @@ def drill_figures(
         FigureName.DEPTH: replace(depth, error_95=depth_error_95),
         FigureName.TO_GO: to_go,
         FigureName.WALL: _wall(clearance.now, limits.warning_distance_mm, sd_mm=analysis.now.sd_mm),
-        FigureName.RISK: _at_most(_percent(risk_ratio), _limit_percent(limits.breach_ratio)),
-        FigureName.END: _end(analysis, limits.breach_ratio),
+        FigureName.RISK: _risk(analysis, limits.breach_ratio),
+        FigureName.END: _end(analysis, limits.breach_ratio, is_beside=is_beside),
         FigureName.ERROR: _at_most(
             rounded_up(max(certain.entry_95_mm, certain.isthmus_95_mm), decimals=2),
             rounded_down(certain.tolerance_mm, decimals=2),
@@ -155,12 +154,20 @@ def _wall(now: WallProximity, warning_distance_mm: float, *, sd_mm: float) -> Fi
     return Figure(value=value, limit=limit, error_95=rounded_up(NORMAL_95 * sd_mm, decimals=2), status=status)
 
 
-def _end(analysis: DrillAnalysis, breach_ratio: float) -> Figure:
+def _risk(analysis: DrillAnalysis, breach_ratio: float) -> Figure:
+    limit = _limit_percent(breach_ratio)
+    if not any(isinstance(one, NearestWall) for one in (analysis.clearance.now, analysis.clearance.lookahead)):
+        # Without a wall, 0 % would be said of a drill in another pedicle, too.
+        return Figure(value=nan, limit=limit, status=Status.OUTSIDE)
+    return _at_most(_percent(max(analysis.now.through_ratio, analysis.lookahead.through_ratio)), limit)
+
+
+def _end(analysis: DrillAnalysis, breach_ratio: float, *, is_beside: bool) -> Figure:
     if analysis.clearance.against is WallSource.CHANNEL:
         # The planned cylinder is not bone: a screw of the same size cannot breach it.
         return Figure(value=nan)
     limit = _limit_percent(breach_ratio)
-    if not isinstance(analysis.clearance.at_end, NearestWall):
+    if is_beside or not isinstance(analysis.clearance.at_end, NearestWall):
         # An axis that misses the pedicle breaches no wall but is no valid path either.
         return Figure(value=nan, limit=limit, status=Status.OVER)
     return _at_most(_percent(analysis.at_end.through_ratio), limit)

@@ -122,7 +122,7 @@ def _with_figures(inputs: AlarmInputs, snapshot: NavigationSnapshot) -> AlarmInp
     )
     if not limited:
         return inputs
-    riskiest = max(limited, key=lambda name: limited[name].figures[FigureName.RISK].value)
+    riskiest = max(limited, key=lambda name: _risk_ratio(limited[name]))
     nearest = min(assessed, key=lambda name: _wall_mm(assessed[name]))
     # For a drill across the channel it is infinite, which does not measure the pose uncertainty.
     finite = [one for one in limited.values() if isfinite(one.figures[FigureName.ERROR].value)]
@@ -139,7 +139,7 @@ def _with_figures(inputs: AlarmInputs, snapshot: NavigationSnapshot) -> AlarmInp
         inputs,
         clearance_mm=_wall_mm(assessed[nearest]),
         wall_site=_site(snapshot, nearest, of_wall=True),
-        breach_ratio=limited[riskiest].figures[FigureName.RISK].value / 100.0,
+        breach_ratio=_risk_ratio(limited[riskiest]),
         risk_site=_site(snapshot, riskiest, of_wall=True),
     )
 
@@ -153,6 +153,12 @@ def _wall_mm(assessment: Assessment) -> float:
     """Return the clearance in mm; `NOT_ENTERED_CLEARANCE_MM` for a drill outside the bone."""
     wall = assessment.figures[FigureName.WALL]
     return NOT_ENTERED_CLEARANCE_MM if wall.status in (Status.OUTSIDE, Status.UNLIMITED) else wall.value
+
+
+def _risk_ratio(assessment: Assessment) -> float:
+    """Return the probability of a breach; 0 for a drill at no wall, for which none is displayed."""
+    risk = assessment.figures[FigureName.RISK]
+    return 0.0 if risk.status is Status.OUTSIDE else risk.value / 100.0
 
 
 def _past_mm(assessment: Assessment, snapshot: NavigationSnapshot) -> float:
