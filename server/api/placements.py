@@ -75,6 +75,9 @@ class PlaceRequest(Message):
     """The screw of the active channel is placed where the drill is now."""
 
     made_by: MadeBy
+    vertebra: str
+    """Of the channel that is meant; rejected if another one is active by now."""
+    side: Side
     diameter_mm: Millimetres | None = None
     """Of the screw; default: the planned one."""
     length_mm: Millimetres | None = None
@@ -95,7 +98,7 @@ def placements_router(step: PlacementStep) -> APIRouter:
     @router.post("", status_code=201, responses=rejections(409, 422, 503, 507))
     def place(requested: PlaceRequest) -> PlacementsMessage:
         """Store that the screw of the active channel stands where the drill is in the newest image."""
-        step.place(made_by=requested.made_by, size=_size(requested))
+        step.place(requested.vertebra, requested.side, made_by=requested.made_by, size=_size(requested))
         return message()
 
     @router.delete("/{document_id}", responses=rejections(404, 409, 422, 503, 507))

@@ -214,16 +214,19 @@ class PlacementStep:
             for channel in vertebra.channels
         )
 
-    def place(self, *, made_by: str, size: ScrewSize | None = None) -> Document:
+    def place(self, vertebra: str, side: Side, *, made_by: str, size: ScrewSize | None = None) -> Document:
         """Store that the screw of the active channel stands where the drill is in the newest image.
 
         Args:
+            vertebra: of the channel that the person was shown as active.
+            side: of that channel.
             made_by: name of the person.
             size: of the screw; None for the planned one.
 
         Raises:
             SetupOrderError: NO_CASE_OPEN, PLAN_MISSING, REGISTER_MISSING, PLACEMENT_NO_CHANNEL,
-                PLACEMENT_NO_SCREW, PLACEMENT_NO_IMAGE, PLACEMENT_NO_NUMBERS, PLACEMENT_SETUP_CHANGED.
+                PLACEMENT_OTHER_CHANNEL, PLACEMENT_NO_SCREW, PLACEMENT_NO_IMAGE, PLACEMENT_NO_NUMBERS,
+                PLACEMENT_SETUP_CHANGED.
             OutOfDateError: the registration is out of date.
             RegistrationError: DRILL_NOT_IN_BONE, DRILL_NOT_IN_CHANNEL.
         """
@@ -234,6 +237,13 @@ class PlacementStep:
                 "PLACEMENT_NO_CHANNEL",
                 "no channel is active, so it is not known which screw was placed",
                 "Select the channel that was drilled.",
+            )
+        if (active.vertebra, active.side) != (vertebra, side):
+            raise SetupOrderError(
+                "PLACEMENT_OTHER_CHANNEL",
+                f"{active.channel.name} is the active channel now, not {channel_name(vertebra, side)}",
+                "Select the channel that was drilled.",
+                {"channel": active.channel.name, "stated_channel": channel_name(vertebra, side)},
             )
         registration = self._registrations.current(active.vertebra)
         planned = _planned_screw(channel_of(vertebra_named(stored.plan, active.vertebra), active.side))

@@ -22,7 +22,9 @@ from tracker.pose import Seen
 
 PLACEMENTS = "/api/navigation/placements"
 SIZE = {"diameter_mm": 5.5, "length_mm": 40.0}
-PLACE = {**BY, **SIZE}
+LEFT = {**BY, "vertebra": "L3", "side": "left"}
+PLACE = {**LEFT, **SIZE}
+PLACE_RIGHT = {**PLACE, "side": "right"}
 ENTRY = {"left": np.array([15.0, 14.0, 2.0]), "right": np.array([-15.0, 14.0, 2.0])}
 TARGET = {"left": np.array([8.0, -30.0, 3.0]), "right": np.array([-8.0, -30.0, 3.0])}
 
@@ -100,9 +102,11 @@ def test_the_other_side_keeps_the_first_screw(server: Server, patient: Patient) 
     server.ask("POST", PLACEMENTS, 201, json=PLACE)
     activate(server, side="right")
     patient.show(drilled(20.0))
-    assert rejected(server) == "DRILL_NOT_IN_CHANNEL"
+    assert rejected(server, request=PLACE_RIGHT) == "DRILL_NOT_IN_CHANNEL"
     patient.show(drilled(20.0, side="right"))
-    server.ask("POST", PLACEMENTS, 201, json=PLACE)
+    # A page that still names the other side.
+    assert rejected(server) == "PLACEMENT_OTHER_CHANNEL"
+    server.ask("POST", PLACEMENTS, 201, json=PLACE_RIGHT)
     assert all(one["placement"] for one in channels(server).values())
     assert {one.name for one in patient.show(None).setup.placed_screws} == {"L3 left", "L3 right"}
 
@@ -123,11 +127,11 @@ def test_what_is_not_known_is_not_placed(server: Server, patient: Patient) -> No
     patient.show(drilled(-5.0))
     assert rejected(server) == "DRILL_NOT_IN_BONE"
     patient.show(drilled(20.0))
-    assert rejected(server, request=BY) == "PLACEMENT_NO_SCREW"
-    assert rejected(server, 422, {**BY, "length_mm": 40.0}) == "SCREW_INCOMPLETE"
+    assert rejected(server, request=LEFT) == "PLACEMENT_NO_SCREW"
+    assert rejected(server, 422, {**LEFT, "length_mm": 40.0}) == "SCREW_INCOMPLETE"
     # An image of another channel, as between a change of the channel and the next image.
     activate(server, side="right")
-    assert rejected(server) == "PLACEMENT_SETUP_CHANGED"
+    assert rejected(server, request=PLACE_RIGHT) == "PLACEMENT_SETUP_CHANGED"
     assert all(one["placement"] is None for one in channels(server).values())
 
 

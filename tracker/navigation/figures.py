@@ -155,8 +155,8 @@ def _wall(now: WallProximity, warning_distance_mm: float, *, sd_mm: float) -> Fi
 
 
 def _risk(analysis: DrillAnalysis, breach_ratio: float) -> Figure:
-    limit = _limit_percent(breach_ratio)
-    if not any(isinstance(one, NearestWall) for one in (analysis.clearance.now, analysis.clearance.lookahead)):
+    limit, clearance = _limit_percent(breach_ratio), analysis.clearance
+    if not any(isinstance(one, NearestWall) for one in (clearance.now, clearance.lookahead)):
         # Without a wall, 0 % would be said of a drill in another pedicle, too.
         return Figure(value=nan, limit=limit, status=Status.OUTSIDE)
     return _at_most(_percent(max(analysis.now.through_ratio, analysis.lookahead.through_ratio)), limit)

@@ -228,6 +228,12 @@ PROCEDURE: Mapping[str, tuple[Text, ...]] = {
             "de": "für {channel} ist keine Schraube geplant, daher ist ihre Größe unbekannt",
         },
     ),
+    "PLACEMENT_OTHER_CHANNEL": (
+        {
+            "en": "{channel} is the active channel now, not {stated_channel}",
+            "de": "jetzt ist {channel} der gewählte Kanal, nicht {stated_channel}",
+        },
+    ),
     "PLACEMENT_SETUP_CHANGED": (
         {
             "en": "the newest image was computed with another channel or registration than the case has now",

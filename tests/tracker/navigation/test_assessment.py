@@ -153,8 +153,8 @@ def test_the_wall_that_is_meant_is_named_and_so_is_what_it_was_measured_against(
 
 def test_no_risk_is_stated_where_no_wall_is_known() -> None:
     """0 % would be said of a drill in another pedicle, too."""
-    for drill in ({"depth_mm": 30.0, "medial_mm": 40.0}, {"depth_mm": -10.0}):
-        figures = assessed_at(**drill).figures
+    for place in ({"depth_mm": 30.0, "medial_mm": 40.0}, {"depth_mm": -10.0}):
+        figures = assessed_at(**place).figures
         assert math.isnan(figures[FigureName.WALL].value)
         assert (math.isnan(figures[FigureName.RISK].value), figures[FigureName.RISK].status) == (
             True,

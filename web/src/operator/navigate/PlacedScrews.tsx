@@ -87,7 +87,8 @@ function Channels({ stepsKey }: { stepsKey: string }): ReactNode {
           channel={active}
           busy={acting.busy}
           onPlace={(size) => {
-            act(() => postNavigationPlacements({ body: { made_by: madeBy, ...size } }));
+            const { vertebra, side } = active;
+            act(() => postNavigationPlacements({ body: { made_by: madeBy, vertebra, side, ...size } }));
           }}
         />
       )}
