@@ -49,13 +49,13 @@ def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
     others.remove("lowest versions")
     (tracker,) = (requested for requested in others if "pytest-tracker.xml" in requested)
     others.remove(tracker)
-    first, ageless, browser = others
+    browser, first, ageless = others
     in_parallel = {word for word in ageless.split() if word.endswith(".py")}
     assert all((ROOT / file).is_file() for file in in_parallel)
     assert in_parallel | {ALONE} == {
         word.removeprefix("--ignore=") for word in browser.split() if "--ignore=" in word
     }
-    # The first part runs everything except browser tests and its exclusions.
+    # The part without a browser runs everything except its exclusions.
     assert "-m not browser" in first
     left_out = {word.removeprefix("--ignore=") for word in first.split() if word.startswith("--ignore=")}
     assert left_out == {"tests/tracker"} == {tracker.split()[-1]}
