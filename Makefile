@@ -213,8 +213,8 @@ ready:
 # built. This does not use make's jobs, because make would wait for them.
 .PHONY: ready-to-run
 ready-to-run: $(STAMPS)/place
-	@$(MAKE) $(STAMPS)/page & page=$$!; \
-	$(MAKE) $(STAMPS)/project; installed=$$?; \
+	@$(MAKE) --silent $(STAMPS)/page & page=$$!; \
+	$(MAKE) --silent $(STAMPS)/project; installed=$$?; \
 	[ $$installed -ne 0 ] || $(MAKE) --question $(STAMPS)/warm $(STAMPS)/guide || \
 		nice sh .make/build-guide $(MAKE) --keep-going $(STAMPS)/warm $(STAMPS)/guide & \
 	wait $$page && exit $$installed

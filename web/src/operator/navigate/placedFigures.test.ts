@@ -35,6 +35,8 @@ test("figures as they were displayed, with the wall and its grade", () => {
   expect(placedFigures(placement(), en)).toBe(
     "entry 0.8 mm · angle 2.0° · 95 % error ±0.61 mm · nearest wall medial -0.4 mm · Gertzbein-Robbins B",
   );
+  const short = placement({ figures: { depth: { ...figure(25), limit: 54.8 } } });
+  expect(placedFigures(short, en)).toMatch(/^drill at 25.0 of 54.8 mm · /);
   expect(placedFigures(placement(), de)).toContain("nächste Wand medial -0.4 mm");
 });
 

@@ -11,8 +11,12 @@ export function placedFigures(placement: Placement, texts: Texts): string {
   const { screws } = texts.navigate;
   const { figures, wall, clearance_mm, grade } = placement;
   const known = (name: keyof Placement["figures"]): number | null => figures[name]?.value ?? null;
-  const [entry, angle, error] = [known("entry"), known("angle"), known("error")];
+  const [entry, angle, error, depth] = [known("entry"), known("angle"), known("error"), known("depth")];
+  const planned = figures.depth?.limit ?? null;
   return [
+    depth === null || planned === null
+      ? ""
+      : interpolate(screws.depth, { mm: formatNumber(depth, 1), planned: formatNumber(planned, 1) }),
     entry === null ? "" : interpolate(screws.entry, { mm: formatNumber(entry, 1) }),
     angle === null ? "" : interpolate(screws.angle, { deg: formatNumber(angle, 1) }),
     error === null ? "" : interpolate(screws.error, { mm: formatNumber(error, 2) }),

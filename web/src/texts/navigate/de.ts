@@ -46,6 +46,7 @@ export const navigateDe: NavigateTexts = {
     outOfDate: "Mit einer früheren Registrierung gespeichert, deshalb nicht gezeichnet.",
     diameter: "Durchmesser (mm)",
     length: "Länge (mm)",
+    depth: "Bohrer bei {mm} von {planned} mm",
     entry: "Eintritt {mm} mm",
     angle: "Winkel {deg}°",
     error: "95-%-Fehler ±{mm} mm",

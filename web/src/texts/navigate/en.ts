@@ -43,6 +43,7 @@ export const navigateEn = {
     outOfDate: "Stored with an earlier registration, therefore not drawn.",
     diameter: "Diameter (mm)",
     length: "Length (mm)",
+    depth: "drill at {mm} of {planned} mm",
     entry: "entry {mm} mm",
     angle: "angle {deg}°",
     error: "95 % error ±{mm} mm",
