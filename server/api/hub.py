@@ -74,7 +74,7 @@ class HubContext:
     @classmethod
     def of(cls, config: Config, address: HubAddress, dashboard: DashboardMessage) -> "HubContext":
         """Return the parts of these settings; nothing is received until the watcher runs."""
-        watcher = Watcher(address, (Leaf.STATE, Leaf.PICTURE))
+        watcher = Watcher(address, (Leaf.STATE, Leaf.PICTURE), creates_storage=True)
         return cls(
             address=address,
             watcher=watcher,

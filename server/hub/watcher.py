@@ -53,6 +53,8 @@ class Watcher:
         leaves: Subjects to receive.
         theatre: The theatre; `*` for all.
         clock_of: Id of another hub in this process, whose beats measure the delays; None to send own ones.
+        creates_storage: Whether it creates stream and bucket where they are missing, which a theatre's user
+            may not: who may create streams can store the requests to other theatres.
     """
 
     def __init__(
@@ -62,6 +64,7 @@ class Watcher:
         *,
         theatre: str = "*",
         clock_of: str | None = None,
+        creates_storage: bool = False,
     ) -> None:
         self.id = clock_of or secrets.token_hex(4)
         self.newest: dict[tuple[str, Leaf], Received] = {}
@@ -71,6 +74,7 @@ class Watcher:
         self._leaves = leaves
         self._theatre = theatre
         self._sends_beats = clock_of is None
+        self._creates_storage = creates_storage
         self._arrived = asyncio.Event()
 
     async def run(self) -> None:
@@ -97,6 +101,11 @@ class Watcher:
             await link.client.subscribe(
                 hospital.subject(self._theatre, leaf), cb=self._take, pending_msgs_limit=MAX_WAITING
             )
+        if self._creates_storage:
+            # Live messages arrive also without JetStream.
+            with suppress(*LOST):
+                await link.ensure_stream()
+                await link.claims()
         self.problem = None
         if not self._sends_beats:
             await link.until_lost()
