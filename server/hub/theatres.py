@@ -105,15 +105,22 @@ def _shown(content: bytes, language: Language) -> tuple[str, str, tuple[AlarmRow
     try:
         state: dict[str, Any] = json.loads(content)
         title, verdict = state["title"], state["verdict"]
-        headline = verdict_title(Verdict(verdict), language) if title is None else str(title[language])
+        headline = verdict_title(Verdict(verdict), language) if title is None else _text(title[language])
         alarms = tuple(
             AlarmRow(
-                priority=str(alarm["priority"]),
-                state=str(alarm["state"]),
-                title=str(alarm["title"][language]),
+                priority=_text(alarm["priority"]),
+                state=_text(alarm["state"]),
+                title=_text(alarm["title"][language]),
             )
             for alarm in state["alarms"]
         )
-        return headline, str(state["tone"]), alarms
+        return headline, _text(state["tone"]), alarms
     except (ValueError, KeyError, TypeError, RecursionError):
         return NOTHING
+
+
+def _text(value: object) -> str:
+    """Return a text that can be sent on: half a surrogate pair of one theatre would end the list of all."""
+    text = str(value)
+    text.encode()
+    return text

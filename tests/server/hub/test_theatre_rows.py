@@ -60,7 +60,10 @@ def test_the_figures_of_a_verdict_are_not_in_the_list() -> None:
     assert row.headline == "NAHE WAND"
 
 
-@pytest.mark.parametrize("content", [b"", b"[]", b'{"title": 3}', b'{"title": null}'])
+HALF_A_PAIR = json.dumps({**STATE, "tone": "\ud800"}).encode()
+
+
+@pytest.mark.parametrize("content", [b"", b"[]", b'{"title": 3}', b'{"title": null}', HALF_A_PAIR])
 def test_a_state_of_another_version_shows_nothing(content: bytes) -> None:
     (row,) = theatre_rows({("OR-1", Leaf.STATE): received(content=content)}, now_s=100.1)
     assert (row.headline, row.alarms) == ("", ())
