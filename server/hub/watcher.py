@@ -14,7 +14,7 @@ from server.clock import elapsed_s
 from server.hub.connection import LOST, HubAddress, HubError, Link, unreachable
 from server.hub.delays import Arrival, arrival_of
 from server.hub.envelope import unpacked
-from server.hub.subjects import Leaf, theatre_of
+from server.hub.subjects import Leaf, is_theatre_name, theatre_of
 
 BEAT_PERIOD_S = 0.2
 CONNECT_AGAIN_S = 1.0
@@ -122,7 +122,10 @@ class Watcher:
         except ValueError:
             return
         self.messages += 1
-        key = (theatre_of(message.subject), Leaf(message.subject.rsplit(".", 1)[1]))
+        theatre = theatre_of(message.subject)
+        if not is_theatre_name(theatre):
+            return
+        key = (theatre, Leaf(message.subject.rsplit(".", 1)[1]))
         self.newest[key] = Received(
             run=header.run,
             number=header.number,
