@@ -78,7 +78,7 @@ class HubContext:
         return cls(
             address=address,
             watcher=watcher,
-            opened=OpenedTheatres(address, clock_of=watcher.id),
+            opened=OpenedTheatres(address, clock_of=watcher),
             viewers=Viewers(maximum=config.video.max_viewers),
             config=config,
             dashboard=dashboard,
