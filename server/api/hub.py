@@ -28,7 +28,7 @@ from server.hub.pictures import HEADER_LENGTH, picture_unpacked
 from server.hub.relay import relayed
 from server.hub.requester import RequestLine, request_line
 from server.hub.requests import HubAnswer, HubRequest
-from server.hub.subjects import Leaf
+from server.hub.subjects import Leaf, is_theatre_name
 from server.hub.theatres import STALE_AFTER_MS, theatre_rows
 from server.hub.watcher import Received, Watcher
 from server.security import person_of
@@ -74,11 +74,11 @@ class HubContext:
     @classmethod
     def of(cls, config: Config, address: HubAddress, dashboard: DashboardMessage) -> "HubContext":
         """Return the parts of these settings; nothing is received until the watcher runs."""
-        watcher = Watcher(address, (Leaf.STATE, Leaf.PICTURE))
+        watcher = Watcher(address, (Leaf.STATE, Leaf.PICTURE), creates_storage=True)
         return cls(
             address=address,
             watcher=watcher,
-            opened=OpenedTheatres(address, clock_of=watcher.id),
+            opened=OpenedTheatres(address, clock_of=watcher),
             viewers=Viewers(maximum=config.video.max_viewers),
             config=config,
             dashboard=dashboard,
@@ -90,7 +90,9 @@ class HubContext:
 
     def is_seen(self, theatre: str, asking: HTTPConnection) -> bool:
         """Return whether this person sees a theatre."""
-        return any(fnmatchcase(theatre, pattern) for pattern in self.sees(asking))
+        return is_theatre_name(theatre) and any(
+            fnmatchcase(theatre, pattern) for pattern in self.sees(asking)
+        )
 
     def reject_unseen(self, theatre: str, request: Request) -> None:
         """Raise unless this person sees a theatre. Whether another one exists is not told.

@@ -39,9 +39,9 @@ def performer(app: ASGIApp, people: PeopleService) -> Callable[[HubRequest], Awa
                 {"path": request.path[:200], "method": request.method},
             )
             return rejected(error, request.language)
-        role = people.role_of(request.token or _invitation_in(request))
+        roles = {people.role_of(request.token), people.role_of(_invitation_in(request))}
         # An operator's session at the hub would let it do what only people in theatre may do.
-        if role not in {None, Role.SUPERVISOR}:
+        if role := next(iter(roles - {None, Role.SUPERVISOR}), None):
             error = HubError(
                 "HUB_SUPERVISORS_ONLY",
                 f"the role {role} cannot be used through the hub",

@@ -3,6 +3,7 @@
 The clock of the sender is mapped to ours by `DeviceClock`: the offset is the smallest difference of arrival
 and time stamp in the last 10 s. It contains the smallest delay of the way, which no message tells; the stated
 latency, from the measurement to the arrival of the fastest message, is therefore subtracted from each time.
+If all messages of 10 s were delayed, the minimum has risen: they would look new, and the connection is ended.
 Drill and patient have the same stamp (`pose_frames`), so that an error of the offset or of the latency is one
 of the age of a pose, never one of the drill in the patient.
 """
@@ -45,6 +46,10 @@ RESOLUTION_MS = 1
 DEVICE = "Coaxial"
 # Capture times increase strictly, also where a faster message corrects the offset.
 MIN_STEP_S = 1e-6
+# Rise of the smallest difference within a connection that is no drift of a crystal; ages would be too small
+# by it.
+MAX_RISE_S = 0.05
+MAX_DRIFT_RATIO = 1e-4
 # Of what is shown instead of an image; its size is that at which the overlay is legible.
 PICTURE_WH_PX = (960, 540)
 BACKGROUND = 28
@@ -86,6 +91,7 @@ class OpenIgtLinkSource:
 
     def _restart(self) -> None:
         self._sender_clock = DeviceClock()
+        self._offset_s, self._offset_at_s = math.inf, 0.0
         self._messages = MessageReader(max_body_bytes=MAX_BODY_BYTES)
         self._frames = PoseFrames(self._settings.transforms)
         self._waiting: deque[tuple[PoseFrame, float]] = deque()
@@ -114,7 +120,7 @@ class OpenIgtLinkSource:
         """Return the poses of the next moment; None when the source is stopped.
 
         Raises:
-            CaptureError: TRACKER_CLOSED, TRACKER_SILENT, TRACKER_MESSAGE_INVALID.
+            CaptureError: TRACKER_CLOSED, TRACKER_SILENT, TRACKER_LATE, TRACKER_MESSAGE_INVALID.
         """
         began_s = self._clock()
         while not self._waiting:
@@ -124,8 +130,9 @@ class OpenIgtLinkSource:
                 raise self._silent()
             self._receive()
         frame, arrived_s = self._waiting.popleft()
-        at_s = self._sender_clock.monotonic_s(frame.stamp_s, arrived_s=arrived_s) - self._latency_s
-        self._captured_at_s = max(at_s, self._captured_at_s + MIN_STEP_S)
+        at_s = self._sender_clock.monotonic_s(frame.stamp_s, arrived_s=arrived_s)
+        self._reject_late(at_s - frame.stamp_s, arrived_s)
+        self._captured_at_s = max(at_s - self._latency_s, self._captured_at_s + MIN_STEP_S)
         shot = Shot(
             image=self._picture,
             number=self._number,
@@ -170,6 +177,25 @@ class OpenIgtLinkSource:
                 "reconnected automatically.",
                 {"place": self._place, "reason": str(error)},
             ) from error
+
+    def _reject_late(self, offset_s: float, arrived_s: float) -> None:
+        """Compare the offset of the sender's clock with the smallest one of this connection.
+
+        Raises:
+            CaptureError: TRACKER_LATE.
+        """
+        expected_s = self._offset_s + MAX_DRIFT_RATIO * (arrived_s - self._offset_at_s)
+        self._offset_s, self._offset_at_s = min(offset_s, expected_s), arrived_s
+        late_ms, limit_ms = (offset_s - self._offset_s) * 1000.0, MAX_RISE_S * 1000.0
+        if late_ms > limit_ms:
+            raise CaptureError(
+                "TRACKER_LATE",
+                f"all poses of the tracker at {self._place} arrive {late_ms:.0f} ms later than the fastest "
+                f"before, allowed are {limit_ms:g} ms",
+                "Check the network and the load of the computer of Plus, or whether its clock was set back; "
+                "it is reconnected automatically.",
+                {"place": self._place, "late_ms": late_ms, "limit_ms": limit_ms},
+            )
 
     def _unreachable(self, error: OSError) -> CaptureError:
         reason = (error.strerror or str(error)).lower()

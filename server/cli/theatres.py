@@ -25,6 +25,7 @@ NONE_HEARD = 1
 COLOURS = {
     TheatrePresence.LIVE: "",
     TheatrePresence.UNMEASURED: "dim",
+    TheatrePresence.UNREADABLE: "yellow",
     TheatrePresence.STALE: "yellow",
     TheatrePresence.GONE: "dim",
 }

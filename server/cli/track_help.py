@@ -26,5 +26,6 @@ NO_CANDIDATE: no quadrilateral in the image matches the marker.
 SCORE_TOO_LOW: too few edges of the marker were found.
 TARGET_SCORE_TOO_LOW: too many edges that the marker does not have.
 SHAPE_DIFFERS: the edges fit, but an inner region has the wrong polarity.
+NOT_REPORTED: an external tracker has no pose of it; not in a video.
 MARKER_TWICE: a second print of the marker is in view.
 """

@@ -80,7 +80,7 @@ def unpacked(message: bytes) -> tuple[Header, bytes]:
             ),
             content,
         )
-    except (KeyError, TypeError, AttributeError, RecursionError) as error:
+    except (KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
         raise ValueError(f"the header is not valid: {error}") from None
 
 

@@ -22,10 +22,10 @@ class OpenedTheatres:
 
     Args:
         address: The NATS server.
-        clock_of: Id of the hub whose beats measure the delays.
+        clock_of: The hub whose beats measure the delays.
     """
 
-    def __init__(self, address: HubAddress, *, clock_of: str) -> None:
+    def __init__(self, address: HubAddress, *, clock_of: Watcher) -> None:
         self._address = address
         self._clock_of = clock_of
         self._opened: dict[str, _Opened] = {}

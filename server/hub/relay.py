@@ -55,7 +55,7 @@ def relayed(content: bytes, arrival: Arrival, *, has_picture: bool = False) -> R
             return Relayed(arrival=arrival, message=message, captured_at_s=None, image_number=None)
         captured_at_s, number = float(snapshot["captured_at_s"]), int(snapshot["image_number"])
         width_px = int(snapshot["width_px"])
-    except (KeyError, TypeError, IndexError, RecursionError) as error:
+    except (KeyError, TypeError, IndexError, OverflowError, RecursionError) as error:
         raise ValueError(f"the live message is not valid: {error}") from None
     age_ms = arrival.image_age_ms(now_s=arrival.arrived_s)
     if age_ms is None and arrival.transfer_ms is not None:

@@ -12,6 +12,7 @@ request that is delivered again gets the first answer.
 
 import asyncio
 import json
+import re
 import secrets
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
@@ -28,6 +29,10 @@ MAX_AGE_S = 5.0
 ANSWERS_LAST_S = 60.0
 MAX_TICKETS = 256
 MAX_AT_ONCE = 32
+# The hub sends an answer to the browser from its own address: HTML or a script of a theatre would run there
+# with the rights at all other theatres.
+CONTENT_TYPES = frozenset({"application/json", "image/png", "application/octet-stream"})
+TOKEN_SHAPE = re.compile(r"[A-Za-z0-9._-]{0,128}")
 CONNECT_AGAIN_S = 1.0
 log = structlog.get_logger(__name__)
 
@@ -115,24 +120,36 @@ def answer_from(message: bytes) -> HubAnswer:
     """Return an answer from the wire.
 
     Raises:
-        ValueError: it is none.
+        ValueError: it is none, or a theatre does not give such an answer.
     """
     line, _, body = message.partition(b"\n")
     try:
         members: dict[str, Any] = json.loads(line)
         token = members["token"]
-        return HubAnswer(
+        answer = HubAnswer(
             status=int(members["status"]),
             content_type=str(members["content_type"]),
             token=None if token is None else str(token),
             body=body,
         )
-    except (TypeError, KeyError, RecursionError) as error:
+    except (TypeError, KeyError, OverflowError, RecursionError) as error:
         raise ValueError(f"the answer is not valid: {error}") from None
+    is_known = answer.content_type in CONTENT_TYPES and 200 <= answer.status < 600
+    if not (is_known and TOKEN_SHAPE.fullmatch(answer.token or "")):
+        raise ValueError(f"the answer is not one of a theatre: {answer.status} {answer.content_type[:80]}")
+    return answer
 
 
 class HubRequestOld(HubError):
     """A request without a ticket of the last seconds; nothing was done."""
+
+
+def is_old(answer: HubAnswer) -> bool:
+    """Return whether the theatre rejected this delivery with HUB_REQUEST_OLD."""
+    try:
+        return answer.status >= 400 and json.loads(answer.body)["code"] == "HUB_REQUEST_OLD"
+    except (ValueError, TypeError, KeyError, RecursionError):
+        return False
 
 
 class Tickets:

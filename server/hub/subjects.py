@@ -1,5 +1,6 @@
 """Names of subjects, streams and buckets. Hospital and theatre are single tokens (`Name` of the settings)."""
 
+import re
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -44,6 +45,11 @@ class Hospital:
     def claims(self) -> str:
         """Key-value bucket of the theatres' names."""
         return f"coaxial_{self.name}"
+
+
+def is_theatre_name(name: str) -> bool:
+    """Return whether a theatre can have this name, which is one token without wildcards."""
+    return re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}", name) is not None
 
 
 def theatre_of(subject: str) -> str:

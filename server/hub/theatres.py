@@ -25,6 +25,7 @@ class TheatrePresence(StrEnum):
 
     LIVE = "live"
     UNMEASURED = "unmeasured"  # it sends, and how old its messages are is not known yet
+    UNREADABLE = "unreadable"  # its newest message is of another version: it may have alarms
     STALE = "stale"  # its newest message is too old: nothing of it is shown
     GONE = "gone"  # it has sent nothing for so long that its name is free
 
@@ -88,7 +89,10 @@ def _row(name: str, received: Received, *, now_s: float, language: Language) -> 
         presence = TheatrePresence.GONE if known_ms > GONE_AFTER_MS else TheatrePresence.STALE
     headline, tone, alarms = NOTHING
     if presence is TheatrePresence.LIVE:
-        headline, tone, alarms = _shown(received.content, language)
+        try:
+            headline, tone, alarms = _shown(received.content, language)
+        except (ValueError, KeyError, TypeError, RecursionError):
+            presence = TheatrePresence.UNREADABLE
     return TheatreRow(
         name=name,
         presence=presence,
@@ -101,19 +105,27 @@ def _row(name: str, received: Received, *, now_s: float, language: Language) -> 
 
 
 def _shown(content: bytes, language: Language) -> tuple[str, str, tuple[AlarmRow, ...]]:
-    """Return headline, tone and alarms of a state; empty for one of another version."""
-    try:
-        state: dict[str, Any] = json.loads(content)
-        title, verdict = state["title"], state["verdict"]
-        headline = verdict_title(Verdict(verdict), language) if title is None else str(title[language])
-        alarms = tuple(
-            AlarmRow(
-                priority=str(alarm["priority"]),
-                state=str(alarm["state"]),
-                title=str(alarm["title"][language]),
-            )
-            for alarm in state["alarms"]
+    """Return headline, tone and alarms of a state.
+
+    Raises:
+        ValueError, KeyError, TypeError, RecursionError: it is none, or of another version.
+    """
+    state: dict[str, Any] = json.loads(content)
+    title, verdict = state["title"], state["verdict"]
+    headline = verdict_title(Verdict(verdict), language) if title is None else _text(title[language])
+    alarms = tuple(
+        AlarmRow(
+            priority=_text(alarm["priority"]),
+            state=_text(alarm["state"]),
+            title=_text(alarm["title"][language]),
         )
-        return headline, str(state["tone"]), alarms
-    except (ValueError, KeyError, TypeError, RecursionError):
-        return NOTHING
+        for alarm in state["alarms"]
+    )
+    return headline, _text(state["tone"]), alarms
+
+
+def _text(value: object) -> str:
+    """Return a text that can be sent on: half a surrogate pair of one theatre would end the list of all."""
+    text = str(value)
+    text.encode()
+    return text

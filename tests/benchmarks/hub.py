@@ -87,7 +87,7 @@ class Supervisor(Watcher):
     """A reader that follows one theatre, and compares the stated ages with the true ones."""
 
     def __init__(
-        self, address: HubAddress, theatre: str, *, clock_of: str, phases: Sequence[Phase], heard: Heard
+        self, address: HubAddress, theatre: str, *, clock_of: Watcher, phases: Sequence[Phase], heard: Heard
     ) -> None:
         super().__init__(address, (Leaf.LIVE, Leaf.PICTURE), theatre=theatre, clock_of=clock_of)
         self._phases = phases
@@ -176,7 +176,7 @@ def run_supervisors(
         hub = Watcher(address, (Leaf.STATE,))
         watchers: list[Watcher] = [hub]
         for theatre in theatres:
-            one = Supervisor(address, theatre, clock_of=hub.id, phases=phases, heard=heard)
+            one = Supervisor(address, theatre, clock_of=hub, phases=phases, heard=heard)
             one.slow_s = SLOW_READ_S if slow else 0.0
             watchers.append(one)
         tasks = [asyncio.create_task(one.run()) for one in watchers]

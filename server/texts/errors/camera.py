@@ -651,6 +651,14 @@ CAMERA: Mapping[str, tuple[Text, ...]] = {
             "de": "das Trackingsystem unter {place} sendete {limit_s:g} s lang keine neue Lage von {bodies}",
         },
     ),
+    "TRACKER_LATE": (
+        {
+            "en": "all poses of the tracker at {place} arrive {late_ms:.0f} ms later than the fastest "
+            "before, allowed are {limit_ms:g} ms",
+            "de": "alle Lagen des Trackingsystems unter {place} kommen {late_ms:.0f} ms später an als die "
+            "schnellsten zuvor, erlaubt sind {limit_ms:g} ms",
+        },
+    ),
     "TRACKER_MESSAGE_INVALID": (
         {
             "en": "a message of the tracker at {place} is not valid: {reason}",

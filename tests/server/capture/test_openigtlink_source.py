@@ -101,6 +101,25 @@ def test_a_pose_has_the_time_of_its_measurement_however_late_it_arrives() -> Non
     assert captured == pytest.approx([60.015 - 0.04, 60.025 - 0.04, 60.045 - 0.04], abs=1e-6)
 
 
+def test_poses_that_all_arrive_late_for_longer_than_the_window_are_not_shown_as_new() -> None:
+    with closing(Tracker()) as tracker:
+        ages_s = list[float]()
+
+        def send_all() -> None:
+            for n in range(100):
+                moment = tracking_data({DRILL: at(n), PATIENT: at(-n)}, T_S + 0.5 * n)
+                # The clock of Plus also drifts, by as much as a crystal may.
+                now_s = 60.0 + 0.5 * n * (1.0 + 5e-5) + (1.0 if n > 40 else 0.0)
+                ages_s.append(now_s - tracker.send(moment, now_s=now_s).captured_at_s)
+
+        with pytest.raises(CaptureError, match="arrive 1000 ms later") as late:
+            send_all()
+    assert late.value.code == "TRACKER_LATE"
+    # For as long as the window has a message from before, their age was right.
+    assert len(ages_s) > 55
+    assert min(ages_s[41:]) >= 1.0
+
+
 GOOD = wire.pack(transform(DRILL, at(5)), version=2)
 
 

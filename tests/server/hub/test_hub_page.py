@@ -98,6 +98,13 @@ def test_a_picture_states_how_old_it_is_at_most_and_an_old_one_is_not_given(tmp_
     assert {(one["presence"], one["headline"], len(one["alarms"])) for one in listed} == {("stale", "", 0)}
 
 
+@pytest.mark.parametrize("name", ["OR-1.request", "OR-*", "OR->", "OR-1%0d%0aX"])
+def test_what_is_no_name_of_a_theatre_is_not_seen(tmp_path: Path, name: str) -> None:
+    door = Door(tmp_path)
+    answer = door.client.get(f"/at/{name}/api/dashboard", headers=door.of("Dr. Weber"))
+    assert (answer.status_code, answer.json()["code"]) == (404, "NOT_FOUND")
+
+
 def test_a_viewer_at_the_hub_asks_nothing_of_a_theatre(tmp_path: Path) -> None:
     door = Door(tmp_path)
     answer = door.client.post("/at/Angio/api/alarms/hold", headers=door.of("Dr. Ito", Role.VIEWER), json={})

@@ -3,10 +3,14 @@
 import asyncio
 import json
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, cast
 
 import pytest
 
-from server.api.hub_requests import performer
+from server.api.hub_requests import performer, rejected
+from server.hub.connection import HubError
+from server.hub.requester import RequestLine
 from server.hub.requests import (
     MAX_AGE_S,
     HubAnswer,
@@ -77,6 +81,43 @@ def test_requests_and_answers_survive_the_wire_and_show_no_token() -> None:
     for message in (b"", b"[]", b"{}", b'{"ticket": "t"}', b'{"ticket": "t", "else": 1}'):
         with pytest.raises(ValueError, match=r"."):
             request_from(message)
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"content_type": "text/html"},
+        {"content_type": "text/javascript"},
+        {"token": "a; Domain=example.org"},
+        {"token": "a\r\nSet-Cookie: b=c"},
+        {"status": 101},
+    ],
+)
+def test_an_answer_that_could_act_in_the_browser_at_the_hub_is_none(changed: dict[str, Any]) -> None:
+    answer = HubAnswer(status=200, content_type="application/json", token=TOKEN, body=b"<script>")
+    assert answer_from(answer.packed()) == answer
+    with pytest.raises(ValueError, match="not one of a theatre"):
+        answer_from(replace(answer, **changed).packed())
+
+
+def test_what_an_earlier_run_may_have_done_is_not_stated_as_not_done() -> None:
+    deliveries: list[bytes] = []
+
+    class Restarted(RequestLine):
+        """A theatre that ends between a request and its answer, and rejects the second delivery."""
+
+        async def _send(self, content: bytes) -> bytes:
+            if not content:
+                return b"ticket"
+            deliveries.append(content)
+            if len(deliveries) == 1:
+                raise self._unanswered()
+            old = HubRequestOld("HUB_REQUEST_OLD", "old", "", {"allowed_s": MAX_AGE_S})
+            return rejected(old, "en").packed()
+
+    with pytest.raises(HubError) as error:
+        asyncio.run(Restarted(link=cast(Any, None), theatre="OR-3").ask(HOLD))
+    assert (error.value.code, len(deliveries)) == ("HUB_NOT_CONFIRMED", 2)
 
 
 def asked(house: Guarded, method: str, path: str, *, token: str = "", body: object = None) -> HubAnswer:
@@ -163,5 +204,8 @@ def test_other_roles_cannot_be_used_through_the_hub(house: Guarded, role: Role) 
     invitation = house.invited(role)
     entered = asked(house, "POST", "/api/session", body={"invitation": invitation})
     assert (entered.status, code_of(entered)) == (403, "HUB_SUPERVISORS_ONLY")
+    for token in (TOKEN, house.token(Role.SUPERVISOR)):
+        beside = asked(house, "POST", "/api/session", token=token, body={"invitation": invitation})
+        assert (beside.status, code_of(beside)) == (403, "HUB_SUPERVISORS_ONLY")
     # It was not used up.
     assert house.people.sign_in(invitation, address="test")[0].person.role is role

@@ -1,15 +1,22 @@
 """The age of a message is never understated, whatever the clocks of theatre and hub show."""
 
+import asyncio
 import itertools
 from math import inf, nan
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from nats.aio.client import Client
+from nats.aio.msg import Msg
 
+from server.clock import elapsed_s
+from server.hub.connection import HubAddress
 from server.hub.delays import arrival_of
 from server.hub.envelope import Beats, Echo, Header, packed, unpacked
 from server.hub.publisher import header_now
+from server.hub.subjects import Hospital, Leaf
+from server.hub.watcher import Watcher
 
 times_s = st.floats(0.0, 30.0)
 clocks_s = st.floats(0.0, 1e6)
@@ -39,6 +46,23 @@ def test_the_stated_age_is_at_least_the_true_one_and_exceeds_it_by_the_way_of_th
         assert to_theatre_s + to_hub_s < 1e-6
     else:
         assert stated_ms == pytest.approx(true_ms + to_theatre_s * 1000.0, abs=1e-3)
+
+
+def test_a_beat_that_the_hub_has_not_sent_measures_no_age() -> None:
+    address = HubAddress(url="nats://127.0.0.1:1", hospital=Hospital("clinic"))
+    watcher = Watcher(address, (Leaf.STATE,))
+    opened = Watcher(address, (Leaf.STATE,), theatre="OR-1", clock_of=watcher)
+    sent_s = elapsed_s()
+    watcher.beats.append(sent_s)
+    for beat_s, is_measured in ((sent_s, True), (sent_s + 1e-6, False)):
+        header = Header(run="r", number=1, age_ms=1.0, echoes={watcher.id: Echo(beat_s=beat_s, held_s=0.0)})
+        message = Msg(
+            _client=Client(), subject="coaxial.clinic.theatre.OR-1.state", data=packed(header, b"{}")
+        )
+        for one in (watcher, opened):
+            asyncio.run(one._take(message))
+            received = one.newest["OR-1", Leaf.STATE]
+            assert (received.arrival.transfer_ms is not None) == is_measured
 
 
 def test_a_pause_while_a_header_is_made_does_not_make_the_message_younger(

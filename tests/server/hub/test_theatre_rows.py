@@ -60,10 +60,15 @@ def test_the_figures_of_a_verdict_are_not_in_the_list() -> None:
     assert row.headline == "NAHE WAND"
 
 
-@pytest.mark.parametrize("content", [b"", b"[]", b'{"title": 3}', b'{"title": null}'])
-def test_a_state_of_another_version_shows_nothing(content: bytes) -> None:
+HALF_A_PAIR = json.dumps({**STATE, "tone": "\ud800"}).encode()
+
+
+@pytest.mark.parametrize("content", [b"", b"[]", b'{"title": 3}', b'{"title": null}', HALF_A_PAIR])
+def test_a_state_of_another_version_is_not_one_without_alarms(
+    content: bytes,
+) -> None:
     (row,) = theatre_rows({("OR-1", Leaf.STATE): received(content=content)}, now_s=100.1)
-    assert (row.headline, row.alarms) == ("", ())
+    assert (row.presence, row.headline, row.alarms) == (TheatrePresence.UNREADABLE, "", ())
 
 
 def test_theatres_are_sorted_as_people_count() -> None:

@@ -29,6 +29,12 @@ CAMERA: tuple[Text, ...] = (
         "Namen sendet; es wird automatisch neu verbunden.",
     },
     {
+        "en": "Check the network and the load of the computer of Plus, or whether its clock was set back; it "
+        "is reconnected automatically.",
+        "de": "Netz und Auslastung des Rechners von Plus prüfen, oder ob dessen Uhr zurückgestellt wurde; es "
+        "wird automatisch neu verbunden.",
+    },
+    {
         "en": "Let it send only TRANSFORM or TDATA, as rigid motions in mm with time stamps; it is "
         "reconnected automatically.",
         "de": "Nur TRANSFORM oder TDATA senden lassen, als starre Bewegungen in mm mit Zeitstempeln; es wird "

@@ -4,9 +4,17 @@ export const hubDe: HubTexts = {
   title: "OPs",
   nothingMoves: "Diese Seite steuert in keinem OP etwas.",
   all: "Alle OPs",
-  presence: { live: "live", unmeasured: "Verzögerung noch nicht gemessen", stale: "veraltet", gone: "weg" },
+  presence: {
+    live: "live",
+    unmeasured: "Verzögerung noch nicht gemessen",
+    unreadable: "nicht lesbar",
+    stale: "veraltet",
+    gone: "weg",
+  },
   covered: {
     unmeasured: "Wie alt seine Nachrichten sind, ist noch nicht bekannt; darum wird nichts von ihm gezeigt.",
+    unreadable:
+      "Dieser Hub kann seinen Zustand nicht lesen; Alarme sind möglich. Hub und OP mit derselben Version betreiben.",
     stale: "Seine neueste Nachricht ist zu alt; darum wird nichts von ihm gezeigt.",
     gone: "Er hat seit mehr als zehn Sekunden nichts gesendet.",
   },

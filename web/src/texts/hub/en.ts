@@ -2,9 +2,17 @@ export const hubEn = {
   title: "Theatres",
   nothingMoves: "This page controls nothing in any theatre.",
   all: "All theatres",
-  presence: { live: "live", unmeasured: "delay not measured yet", stale: "stale", gone: "gone" },
+  presence: {
+    live: "live",
+    unmeasured: "delay not measured yet",
+    unreadable: "not readable",
+    stale: "stale",
+    gone: "gone",
+  },
   covered: {
     unmeasured: "How old its messages are is not known yet, so that nothing of it is shown.",
+    unreadable:
+      "This hub cannot read its state; it may have alarms. Run hub and theatre with the same version.",
     stale: "Its newest message is too old, so that nothing of it is shown.",
     gone: "It has sent nothing for more than ten seconds.",
   },
