@@ -10,6 +10,8 @@ export function Dialog(props: ModalProps): ReactNode {
     <Modal
       {...props}
       yOffset={top}
+      // A moving dialog would pass over the band.
+      transitionProps={{ duration: 0 }}
       styles={{
         inner: { paddingBottom: MARGIN_PX },
         content: { maxHeight: `calc(100dvh - ${String(top + MARGIN_PX)}px)` },
