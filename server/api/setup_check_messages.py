@@ -1,5 +1,6 @@
 """Messages of the check of a planned screw before navigation."""
 
+from server.procedure.registration.points import LANDMARK_SD_MM
 from server.procedure.setup_check import Basis, Remedy, RemedyKind, SetupCheck
 from server.stream.message import Message
 from tracker.navigation import RegistrationCheck
@@ -47,6 +48,8 @@ class SetupCheckMessage(Message):
     """Diameter of the planned screw."""
     tool: str | None
     """The tool with the smallest error; null if no tool is included."""
+    landmark_sd_mm: float | None
+    """Assumed error of a touched landmark, 1 SD per axis; null with a registration, which has its own."""
     found: ChannelErrorMessage
     """Smallest possible error of an image with the drill on the channel."""
     remedies: list[RemedyMessage]
@@ -62,6 +65,7 @@ def setup_check_message(check: SetupCheck) -> SetupCheckMessage:
         side=check.side,
         diameter_mm=check.diameter_mm,
         tool=check.tool or None,
+        landmark_sd_mm=LANDMARK_SD_MM if check.basis is Basis.LANDMARKS else None,
         found=_channel_error(check.check),
         remedies=[_remedy(one) for one in check.remedies],
     )

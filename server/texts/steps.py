@@ -120,7 +120,10 @@ REASONS: Mapping[str, Sentence] = {
         }
     ),
     "CHANNEL_SELECTED": Sentence(
-        {"en": "a channel of {vertebra} is to be drilled", "de": "ein Kanal von {vertebra} wird gebohrt"}
+        {
+            "en": "a channel of {vertebra} is chosen for drilling",
+            "de": "ein Kanal von {vertebra} ist zum Bohren gewählt",
+        }
     ),
     # registration
     "VERTEBRA_UNKNOWN": Sentence(

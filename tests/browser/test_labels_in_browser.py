@@ -73,6 +73,12 @@ def test_labels_are_drawn_and_both_pedicles_are_measured_without_a_click(
     expect(page.get_by_test_id("vertebra-L4")).to_be_visible()
     expect(page.get_by_test_id("measure-both")).to_have_count(0)
     page.get_by_test_id("add-vertebra").click()
+    # The alarms are readable, and their buttons are touched while a dialog is open.
+    page.get_by_test_id("sound").click(trial=True)
+    alarms, dialog = page.get_by_test_id("alarms").bounding_box(), page.get_by_role("dialog").bounding_box()
+    assert alarms
+    assert dialog
+    assert dialog["y"] >= alarms["y"] + alarms["height"]
     page.get_by_test_id("level-L3").click()
     _cancel_a_measurement(page)
     page.get_by_test_id("measure-both").click()

@@ -31,6 +31,7 @@ CHECK = {
     "side": "left",
     "diameter_mm": 6.5,
     "tool": "drill",
+    "landmark_sd_mm": None,
     "found": error(1.2, 0.5),
     "remedies": [
         {"kind": "more_landmarks", "expected": error(0.9, 0.5), "landmarks": 9, "diameter_mm": None},
@@ -53,7 +54,6 @@ def test_the_overview_names_the_figures_and_each_remedy_with_its_own(theatre: Th
     expect(note).to_contain_text("error at the isthmus at least 1.20 mm (95 %), 0.50 mm to the wall")
     expect(page.get_by_test_id("setup-remedies").get_by_role("listitem")).to_have_text(
         [
-            "9 landmarks, spread like these, none mistaken: 0.90 mm, not enough.",
             "A surface sweep: the error is known only afterwards.",
             "Screw of 5.0 mm: 1.25 mm to the wall, enough at best.",
         ]

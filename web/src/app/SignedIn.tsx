@@ -1,8 +1,9 @@
-import { Alert, Button, Modal } from "@mantine/core";
+import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { getPeople } from "../api";
 import { OWN_SERVER } from "../hub/openedTheatre";
+import { Dialog } from "../panes/Dialog";
 import { RejectionNote } from "../rest/RejectionNote";
 import { useQuery } from "../rest/useQuery";
 import { useAction } from "../rest/useAction";
@@ -45,7 +46,7 @@ export function SignedIn(): ReactNode {
           .filter((part) => part !== "")
           .join(" · ")}
       </Button>
-      <Modal opened={isConfirming} onClose={close} title={texts.leaveTitle} centered withCloseButton={false}>
+      <Dialog opened={isConfirming} onClose={close} title={texts.leaveTitle} centered withCloseButton={false}>
         {isOnly ? (
           <Alert className="consequence" title={texts.onlyTitle} role="alert" data-testid="only-operator">
             <p>{texts.onlySentence}</p>
@@ -72,7 +73,7 @@ export function SignedIn(): ReactNode {
             {isOnly ? texts.leaveAnyway : texts.leave}
           </Button>
         </div>
-      </Modal>
+      </Dialog>
     </>
   );
 }

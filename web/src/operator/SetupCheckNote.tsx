@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { useProcedure } from "../app/procedure";
 import { useTexts } from "../texts/TextsContext";
 import { useSides } from "./registration/useSides";
-import { remedyText, setupSentence } from "./setupCheckText";
+import { helpfulRemedies, remedyText, setupSentence } from "./setupCheckText";
 
 /** Whether the planned screw can be navigated, before navigation starts, and what would help. Blocks nothing. */
 export function SetupCheckNote(): ReactNode {
@@ -11,6 +11,7 @@ export function SetupCheckNote(): ReactNode {
   const check = useProcedure().data?.setup_check ?? null;
   if (check === null) return null;
   const { suffices } = check.found;
+  const remedies = helpfulRemedies(check);
   const sentence = setupSentence(check, sideName(check.side), texts);
   if (suffices)
     return (
@@ -23,11 +24,11 @@ export function SetupCheckNote(): ReactNode {
       <p className="warning" role="status">
         ▲ {sentence}
       </p>
-      {check.remedies.length > 0 && (
+      {remedies.length > 0 && (
         <>
           <p>{texts.remedies}</p>
           <ul className="said" data-testid="setup-remedies">
-            {check.remedies.map((remedy) => (
+            {remedies.map((remedy) => (
               <li key={`${remedy.kind} ${String(remedy.landmarks)}`}>{remedyText(remedy, texts)}</li>
             ))}
           </ul>

@@ -16,8 +16,14 @@ export function setupSentence(check: SetupCheck, side: string, texts: SetupCheck
     place: found.isthmus_95_mm >= found.entry_95_mm ? texts.isthmus : texts.entry,
     error: formatNumber(found.error_95_mm, 2),
     tolerance: formatNumber(found.tolerance_mm, 2),
+    sd: check.landmark_sd_mm === null ? "" : formatNumber(check.landmark_sd_mm, 1),
   });
-  return `${sentence} ${found.suffices ? texts.suffices : texts.insufficient}`;
+  return `${sentence} ${found.suffices ? texts.suffices : texts.insufficient[check.basis]}`;
+}
+
+/** What is enough or cannot be predicted: anything else would not help on its own. */
+export function helpfulRemedies(check: SetupCheck): Remedy[] {
+  return check.remedies.filter((one) => one.expected?.suffices !== false);
 }
 
 export function remedyText(
@@ -32,5 +38,5 @@ export function remedyText(
     error: formatNumber(expected.error_95_mm, 2),
     tolerance: formatNumber(expected.tolerance_mm, 2),
   });
-  return `${figure}, ${expected.suffices ? texts.enough : texts.notEnough}.`;
+  return `${figure}, ${texts.enough}.`;
 }

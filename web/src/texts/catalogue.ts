@@ -52,6 +52,8 @@ export interface Texts {
     steadied: string;
     whileMoving: string;
     nearerTo: string;
+    switchUnderNavigation: string;
+    switchBelow: string;
     latencyUnknown: Record<"measure" | "simulated", string>;
     trend: string;
   };

@@ -51,7 +51,9 @@ export const de: Texts = {
     errorUnknown: "95-%-Fehler unbekannt",
     steadied: "geglättet, verzögert um",
     whileMoving: "in Bewegung",
-    nearerTo: "Bohrer näher an {channel} · Wechsel unter Navigation",
+    nearerTo: "Bohrer näher an {channel}",
+    switchUnderNavigation: "Wechsel unter Navigation",
+    switchBelow: "Wechsel weiter unten",
     latencyUnknown: {
       measure: "in Bewegung: Latenz im Schritt Kamera messen",
       simulated: "in Bewegung, Latenz unbekannt: simulierte Kamera",

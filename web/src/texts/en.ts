@@ -53,7 +53,9 @@ export const en: Texts = {
     errorUnknown: "95 % error unknown",
     steadied: "smoothed, delayed by",
     whileMoving: "while moving",
-    nearerTo: "Drill nearer to {channel} · switch under Navigation",
+    nearerTo: "Drill nearer to {channel}",
+    switchUnderNavigation: "switch under Navigation",
+    switchBelow: "switch below",
     latencyUnknown: {
       measure: "moving: measure the latency in the step Camera",
       simulated: "moving, latency unknown: simulated camera",
@@ -81,7 +83,7 @@ export const en: Texts = {
     },
   },
   moves: {
-    reference: "The patient marker shows whether patient or camera move.",
+    reference: "The patient marker shows whether patient or camera moves.",
     "fixed-scene":
       "No patient marker: patient movement is not detected, camera movement only from the background.",
     "not-at-all": "No patient marker: movement of patient or camera is not detected.",

@@ -1,6 +1,7 @@
-import { Button, Modal, TextInput } from "@mantine/core";
+import { Button, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { postCasesByCaseIdDeletion } from "../../api";
+import { Dialog } from "../../panes/Dialog";
 import { RejectionNote } from "../../rest/RejectionNote";
 import { useAction } from "../../rest/useAction";
 import { useTexts } from "../../texts/TextsContext";
@@ -19,7 +20,7 @@ export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => voi
     if (done) onEnd();
   };
   return (
-    <Modal
+    <Dialog
       opened
       centered
       size="lg"
@@ -61,6 +62,6 @@ export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => voi
           </Button>
         </div>
       </form>
-    </Modal>
+    </Dialog>
   );
 }

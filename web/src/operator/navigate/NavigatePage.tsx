@@ -20,16 +20,18 @@ import { Steadiness } from "./Steadiness";
 export function NavigatePage(): ReactNode {
   const { data } = useProcedure();
   return (
-    <div className="registration" data-testid="navigate" data-may={data?.may_navigate}>
-      <Gates />
-      <div className="board">
-        <AfterFirstMessage loading={<LoadingNumbers />}>
-          <NumbersPane over={<ConfirmRestart />} />
-        </AfterFirstMessage>
-        <VideoPane />
-        <CutsProvider>
-          <ChosenTile />
-        </CutsProvider>
+    <div className="registration navigate" data-testid="navigate" data-may={data?.may_navigate}>
+      <div className="navigate-first">
+        <Gates />
+        <div className="board">
+          <AfterFirstMessage loading={<LoadingNumbers />}>
+            <NumbersPane over={<ConfirmRestart />} />
+          </AfterFirstMessage>
+          <VideoPane />
+          <CutsProvider>
+            <ChosenTile />
+          </CutsProvider>
+        </div>
       </div>
       {/* Below the picture, which an alarm must not move: the band of alarms states the same. */}
       <MovementWarning />

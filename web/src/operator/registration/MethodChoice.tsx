@@ -11,19 +11,22 @@ import { useActiveProcedures } from "./useActiveProcedures";
 type Method = Exclude<RegistrationMessage["method"], "rehearsal">;
 const PATH: Record<Method, Way> = { points: "points", needles: "needles", surface: "sweep" };
 
+const addressOf = (method: Method): string => `/operator/register/${PATH[method]}`;
+
 /** Registration methods, with what each determines and misses, and their state. */
 export function MethodChoice(): ReactNode {
   const texts = useTexts().registration;
   const running = useActiveProcedures().data;
   const begun = { points: running?.points === true, needles: false, surface: running?.sweep === true };
+  const method = (Object.keys(PATH) as Method[]).find((one) => begun[one]);
   return (
     <div className="registration">
-      <RegistrationNow />
+      <RegistrationNow begun={method === undefined ? null : { method, href: addressOf(method) }} />
       <SetupCheckNote />
       <ul className="methods">
         {(Object.keys(PATH) as Method[]).map((method) => (
           <li key={method}>
-            <Link href={`/operator/register/${PATH[method]}`} data-testid={`method-${method}`}>
+            <Link href={addressOf(method)} data-testid={`method-${method}`}>
               <strong>{texts.method[method]}</strong>
               <span className="method-does">{texts.choice[method].does}</span>
               <span>

@@ -1,7 +1,11 @@
 import { Badge } from "@mantine/core";
 import type { ReactNode } from "react";
 import { Link } from "wouter";
-import { getRegistration, postCasesByCaseIdDocumentsByDocumentIdWithdrawal } from "../../api";
+import {
+  getRegistration,
+  type RegistrationMessage,
+  postCasesByCaseIdDocumentsByDocumentIdWithdrawal,
+} from "../../api";
 import { QueryStatus } from "../../rest/QueryStatus";
 import { useQuery } from "../../rest/useQuery";
 import { useAction } from "../../rest/useAction";
@@ -15,15 +19,33 @@ import { RegistrationNumbers } from "./RegistrationNumbers";
 import { ConfirmOrCancelButton } from "./ConfirmOrCancelButton";
 import { useMadeBy } from "./useMadeBy";
 
-/** The current registration: method, values and next actions. */
-export function RegistrationNow(): ReactNode {
+interface Begun {
+  method: RegistrationMessage["method"];
+  href: string;
+}
+
+/** The current registration: method, values and next actions; without one, whether one is in progress, and where. */
+export function RegistrationNow({ begun }: { begun: Begun | null }): ReactNode {
   const { data } = useProcedure();
   const step = data?.steps.find((one) => one.step === "register");
   const texts = useTexts().registration;
   if (data === null || step === undefined) return null;
   // A withdrawn registration has no actions; the head of the step states the reason.
   if (step.document_id === null || step.state !== "done")
-    return <p data-testid="registration-none">{texts.now.none}</p>;
+    return (
+      <p data-testid="registration-none">
+        {begun === null ? (
+          texts.now.none
+        ) : (
+          <>
+            {interpolate(texts.now.begun, { method: texts.method[begun.method] })}{" "}
+            <Link className="big-link" href={begun.href}>
+              {texts.choice.begun}
+            </Link>
+          </>
+        )}
+      </p>
+    );
   return <Newest key={step.document_id} caseId={data.case_id ?? ""} documentId={step.document_id} />;
 }
 

@@ -8,7 +8,7 @@ export const connectionDe: ConnectionTexts = {
   decoding: "Langsames Dekodieren",
   drawing: "Langsames Zeichnen",
   reduced: "Verkleinertes Bild",
-  rate: "Bilder/s",
+  rate: { one: "{count} Bild/s", other: "{count} Bilder/s" },
   ages: "Alter der Anzeige",
   age: { picture: "Bild", numbers: "Werte", scene: "3-D", clock: "Serveruhr geht vor um" },
 };

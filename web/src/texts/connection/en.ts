@@ -6,7 +6,7 @@ export const connectionEn = {
   decoding: "Slow decoding",
   drawing: "Slow drawing",
   reduced: "Reduced picture",
-  rate: "images/s",
+  rate: { one: "{count} image/s", other: "{count} images/s" },
   ages: "Age of the display",
   age: { picture: "Picture", numbers: "Numbers", scene: "3-D", clock: "Server clock ahead by" },
 };

@@ -36,7 +36,7 @@ export const navigateDe: NavigateTexts = {
     title: "Schrauben",
     planned: "geplant",
     registered: "registriert",
-    active: "wird gebohrt",
+    active: "zum Bohren gewählt",
     placed: "gesetzt",
     placeHere: "{channel}: hier gesetzt",
     replaceSure: "Ja, {channel} ersetzen",

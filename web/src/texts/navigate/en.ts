@@ -33,7 +33,7 @@ export const navigateEn = {
     title: "Screws",
     planned: "planned",
     registered: "registered",
-    active: "being drilled",
+    active: "chosen for drilling",
     placed: "placed",
     placeHere: "{channel}: placed here",
     replaceSure: "Yes, replace {channel}",

@@ -4,7 +4,7 @@ export const operatorEn = {
   next: "Next step",
   at: "{at} of {all}",
   now: "next",
-  locked: "not yet",
+  locked: "later",
   page: {
     case: "Case",
     camera: "Camera",

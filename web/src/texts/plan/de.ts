@@ -89,7 +89,7 @@ export const planDe: PlanTexts = {
     isMeasured: "Längs des Pedikels",
     transverse: "transversal",
     sagittal: "sagittal",
-    isActive: "Dieser Kanal wird jetzt gebohrt",
+    isActive: "Dieser Kanal ist zum Bohren gewählt",
     activate: "Diesen Kanal jetzt bohren",
     deactivate: "Diesen Kanal jetzt nicht bohren",
   },

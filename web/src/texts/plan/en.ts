@@ -86,7 +86,7 @@ export const planEn = {
     isMeasured: "Along the pedicle",
     transverse: "transverse",
     sagittal: "sagittal",
-    isActive: "This channel is being drilled now",
+    isActive: "This channel is chosen for drilling",
     activate: "Drill this channel now",
     deactivate: "Do not drill this channel now",
   },

@@ -43,6 +43,7 @@ export const registrationDe: RegistrationTexts = {
   },
   now: {
     none: "Es gibt noch keine Registrierung. Wählen Sie ein Verfahren.",
+    begun: "Es gibt noch keine Registrierung. Eine ist im Gange: {method}.",
     title: "{vertebra}, Registrierung {version}",
     holds: "gültig",
     lost: "nicht mehr gültig",
@@ -104,6 +105,7 @@ export const registrationDe: RegistrationTexts = {
     ],
     begin: "Beginnen",
     count: "{touched} von {all} Landmarken angetastet, mindestens {min} nötig",
+    needed: "Für eine Registrierung sind mindestens {min} Landmarken nötig.",
     enough: "Genug angetastet. Die letzte Landmarke bleibt für die Prüfung.",
     capture: "Landmarke erfassen",
     captureAgain: "Neu erfassen",

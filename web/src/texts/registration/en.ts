@@ -41,6 +41,7 @@ export const registrationEn = {
   },
   now: {
     none: "There is no registration yet. Choose a method.",
+    begun: "There is no registration yet. One is in progress: {method}.",
     title: "{vertebra}, registration {version}",
     holds: "valid",
     lost: "no longer valid",
@@ -102,6 +103,7 @@ export const registrationEn = {
     ],
     begin: "Begin",
     count: "{touched} of {all} landmarks touched, at least {min} needed",
+    needed: "At least {min} landmarks are needed for a registration.",
     enough: "Enough landmarks touched. The last one is kept for the check.",
     capture: "Capture landmark",
     captureAgain: "Capture again",

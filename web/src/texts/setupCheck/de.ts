@@ -5,11 +5,15 @@ export const setupCheckDe: SetupCheckTexts = {
   registration:
     "{vertebra} {side}, Schraube von {diameter} mm: Fehler {place} mindestens {error} mm (95 %), {tolerance} mm bis zur Wand.",
   landmarks:
-    "{vertebra} {side}, Schraube von {diameter} mm: Mit den geplanten Landmarken und einem exakten Instrument ist {place} ein Fehler von {error} mm (95 %) zu erwarten, {tolerance} mm bis zur Wand.",
+    "{vertebra} {side}, Schraube von {diameter} mm: Mit den geplanten Landmarken, jede auf {sd} mm (1 SD je Achse) genau angetastet, und einem exakten Instrument ist {place} ein Fehler von {error} mm (95 %) zu erwarten, {tolerance} mm bis zur Wand.",
   entry: "am Eintritt",
   isthmus: "am Isthmus",
   suffices: "Der Aufbau reicht für diese Schraube.",
-  insufficient: "Der Aufbau reicht nicht: Jedes Bild würde AUFBAU REICHT NICHT melden.",
+  insufficient: {
+    registration: "Der Aufbau reicht nicht: Jedes Bild würde AUFBAU REICHT NICHT melden.",
+    landmarks:
+      "Das reicht nicht: Bilder würden AUFBAU REICHT NICHT melden, außer wenn genauer angetastet wird als angenommen.",
+  },
   remedies: "Jede dieser Maßnahmen hilft für sich:",
   remedy: {
     more_landmarks: "{landmarks} Landmarken, verteilt wie diese, keine verwechselt: {error} mm",
@@ -18,5 +22,4 @@ export const setupCheckDe: SetupCheckTexts = {
     surface_sweep: "Oberfläche abfahren: Der Fehler ist erst danach bekannt",
   },
   enough: "reicht bestenfalls",
-  notEnough: "reicht nicht",
 };

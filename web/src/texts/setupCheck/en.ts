@@ -4,11 +4,15 @@ export const setupCheckEn = {
   registration:
     "{vertebra} {side}, screw of {diameter} mm: error {place} at least {error} mm (95 %), {tolerance} mm to the wall.",
   landmarks:
-    "{vertebra} {side}, screw of {diameter} mm: with the planned landmarks and an exact tool, an error of {error} mm (95 %) is expected {place}, {tolerance} mm to the wall.",
+    "{vertebra} {side}, screw of {diameter} mm: with the planned landmarks, each touched to {sd} mm (1 SD per axis), and an exact tool, an error of {error} mm (95 %) is expected {place}, {tolerance} mm to the wall.",
   entry: "at the entry",
   isthmus: "at the isthmus",
   suffices: "The set-up is sufficient for this screw.",
-  insufficient: "The set-up is not sufficient: every image would report SET-UP INSUFFICIENT.",
+  insufficient: {
+    registration: "The set-up is not sufficient: every image would report SET-UP INSUFFICIENT.",
+    landmarks:
+      "This is not sufficient: images would report SET-UP INSUFFICIENT unless the touches are better than assumed.",
+  },
   remedies: "Each of these helps on its own:",
   remedy: {
     more_landmarks: "{landmarks} landmarks, spread like these, none mistaken: {error} mm",
@@ -17,7 +21,6 @@ export const setupCheckEn = {
     surface_sweep: "A surface sweep: the error is known only afterwards",
   },
   enough: "enough at best",
-  notEnough: "not enough",
 };
 
 export type SetupCheckTexts = typeof setupCheckEn;

@@ -94,9 +94,9 @@ export const supervisorDe: SupervisorTexts = {
     invitedByMaker: "eingeladen von {name}; das Dokument stammt von {name}",
     anybody:
       "Auf diesem Server meldet sich niemand an. Eine Unterschrift gilt deshalb nicht als die einer zweiten Person.",
-    done: "gegengezeichnet",
+    done: "gegen\u00adgezeichnet",
     due: "gegen\u00adzuzeichnen",
-    open: "nicht gegengezeichnet",
+    open: "nicht gegen\u00adgezeichnet",
   },
   audit: "Protokoll der Handlungen",
   log: {

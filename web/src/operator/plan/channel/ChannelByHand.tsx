@@ -3,6 +3,7 @@ import { useState, type ReactNode } from "react";
 import { formatNumber } from "../../../live/rounding";
 import { putPlanVertebraeByNameChannelsBySide } from "../../../api";
 import { useTexts } from "../../../texts/TextsContext";
+import { StepActions } from "../../StepActions";
 import { ArrowPad } from "../slices/ArrowPad";
 import { downOf, normalOf, rightOf } from "../slices/place";
 import { useSlices } from "../slices/SlicesContext";
@@ -123,10 +124,7 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
           put({ ...draft, diameterMm: Math.min(MAX_DIAMETER_MM, Math.max(MIN_DIAMETER_MM, wanted)) });
         }}
       />
-      <div className="buttons">
-        <Button size="xl" disabled={busy || isUnchanged} data-testid="keep-channel" onClick={keep}>
-          {texts.keep}
-        </Button>
+      <StepActions>
         <Button
           size="xl"
           variant="default"
@@ -137,7 +135,10 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
         >
           {texts.discard}
         </Button>
-      </div>
+        <Button size="xl" disabled={busy || isUnchanged} data-testid="keep-channel" onClick={keep}>
+          {texts.keep}
+        </Button>
+      </StepActions>
     </section>
   );
 }

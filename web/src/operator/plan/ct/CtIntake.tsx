@@ -23,7 +23,8 @@ interface CtIntakeProps {
 
 /** Receives a CT: upload, reading, and choice of the series if there are several. */
 export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
-  const texts = useTexts().plan.ct;
+  const all = useTexts();
+  const texts = all.plan.ct;
   const madeBy = useMadeBy();
   const [uploadId, setUploadId] = useState("");
   const [isAgreed, setAgreed] = useState(false);
@@ -41,6 +42,8 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
   );
   const isBusy = upload.phase !== null || (job.job !== null && !isOver(job.job));
   const series = job.job?.state === "done" ? seriesOf(job.job) : [];
+  // Its slices are on their way: nothing else is to be chosen.
+  const isTaken = job.job?.state === "done" && series.length === 0;
 
   const choose = (one: string): void => {
     void choosing.run(async () => {
@@ -67,7 +70,7 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
   }
   return (
     <div className="ct-intake" data-testid="ct-intake">
-      {!isBusy && series.length === 0 && (
+      {!isBusy && !isTaken && series.length === 0 && (
         <>
           <p>{texts.hint}</p>
           <FileButtons
@@ -105,6 +108,7 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
       <UploadProgress upload={upload} />
       <RejectionNote rejection={choosing.rejection} />
       <JobProgress followed={job} />
+      {isTaken && <p role="status">{all.rest.loading}</p>}
       {job.job !== null && !isOver(job.job) && (
         <ReadingPreview key={uploadId} uploadId={uploadId} of={job.job} />
       )}

@@ -1,5 +1,6 @@
-import { Button, Modal, TextInput } from "@mantine/core";
+import { Button, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
+import { Dialog } from "../../../panes/Dialog";
 import { useTexts } from "../../../texts/TextsContext";
 
 interface LandmarkNamesProps {
@@ -15,7 +16,7 @@ export function LandmarkNames({ opened, usedNames, onClose, onName }: LandmarkNa
   const [typed, setTyped] = useState("");
   const name = typed.trim();
   return (
-    <Modal
+    <Dialog
       opened={opened}
       onClose={onClose}
       title={texts.which}
@@ -60,6 +61,6 @@ export function LandmarkNames({ opened, usedNames, onClose, onName }: LandmarkNa
           {texts.take}
         </Button>
       </form>
-    </Modal>
+    </Dialog>
   );
 }

@@ -1,6 +1,7 @@
-import { Button, Modal } from "@mantine/core";
+import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { postPlanVertebrae } from "../../../api";
+import { Dialog } from "../../../panes/Dialog";
 import { useTexts } from "../../../texts/TextsContext";
 import { usePlanning } from "../state/PlanContext";
 
@@ -46,7 +47,7 @@ export function VertebraChooser(): ReactNode {
       >
         + {texts.add}
       </button>
-      <Modal
+      <Dialog
         opened={isAdding}
         onClose={() => {
           setAdding(false);
@@ -74,7 +75,7 @@ export function VertebraChooser(): ReactNode {
             ))}
           </div>
         ))}
-      </Modal>
+      </Dialog>
     </div>
   );
 }

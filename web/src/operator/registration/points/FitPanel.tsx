@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { Rejection } from "../../../rest/client";
+import { interpolate } from "../../../texts/interpolate";
 import { useTexts } from "../../../texts/TextsContext";
 import { Remarks } from "../../parts/Remarks";
 import { Measure } from "../Measure";
@@ -46,9 +47,14 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
       </dl>
       <Remarks remarks={points.remarks} />
       <div data-testid="points-missing">
-        {points.missing.map((problem) => (
-          <RegistrationRejection key={problem.code} rejection={new Rejection(problem)} />
-        ))}
+        {points.landmarks.some((one) => one.touched) ? (
+          points.missing.map((problem) => (
+            <RegistrationRejection key={problem.code} rejection={new Rejection(problem)} />
+          ))
+        ) : (
+          // Nothing has been done yet, so nothing is wrong.
+          <p className="quiet">{interpolate(texts.points.needed, { min: limits.min_points })}</p>
+        )}
       </div>
       {points.missing.length === 0 && (
         <p className="good" data-testid="points-pass">
