@@ -75,7 +75,11 @@ test("everything that the server writes down has words", () => {
       .map((method) => `${method.toUpperCase()} ${path}`),
   );
   // Not logged: pages report their presence every two seconds, and a review shows an instant.
-  const silent = ["POST /api/alarms/screens", "PUT /api/recordings/{name}/scenes/{key}"];
+  const silent = [
+    "POST /api/alarms/screens",
+    "POST /api/supervision/marks",
+    "PUT /api/recordings/{name}/scenes/{key}",
+  ];
   const written = changing.filter((one) => !silent.includes(one));
   expect(written.filter((one) => !Object.hasOwn(auditEn.actions, one))).toEqual([]);
   expect(Object.keys(auditDe.actions)).toEqual(Object.keys(auditEn.actions));
