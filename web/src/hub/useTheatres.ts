@@ -1,5 +1,6 @@
 import { useEffect, useState } from "react";
 import { getTheatres } from "../api";
+import { SleepDetector } from "../live/sleepDetector";
 import { Rejection, type Problem } from "../rest/client";
 import type { Heard } from "./heard";
 import { OWN_SERVER } from "./openedTheatre";
@@ -38,7 +39,9 @@ export function useTheatres(): Theatres {
       if (!stop.signal.aborted) timer = setTimeout(() => void ask(), ASK_EVERY_MS);
     };
     void ask();
+    const sleep = new SleepDetector(Date.now, () => performance.now());
     const ticking = setInterval(() => {
+      if (sleep.hasSlept()) setHeard(null);
       setNowMs(performance.now());
     }, SHOW_EVERY_MS);
     document.addEventListener(

@@ -35,6 +35,11 @@ export class MessageConnection {
     this.socket.stop();
   }
 
+  /** Closes the connection and opens a new one. */
+  restart(): void {
+    this.socket.reconnect();
+  }
+
   private receive(data: unknown): void {
     let message: LiveMessage;
     try {

@@ -11,6 +11,7 @@ import { UNLIMITED } from "./budget";
 import { UPDATE_EVERY_MS } from "./load";
 import type { WebSocketLike } from "./reconnectingSocket";
 import { isSceneNote } from "./sceneAge";
+import { SleepDetector } from "./sleepDetector";
 import { socketAddress } from "./socketAddress";
 
 export type Dashboard = DashboardMessage;
@@ -54,7 +55,14 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     }
   };
 
+  const sleep = new SleepDetector(Date.now, () => performance.now());
+
   const update = (): void => {
+    // What was received before is older than its age on the page's clock, and that clock has moved away from the server's.
+    if (sleep.hasSlept()) {
+      connection.restart();
+      messages.restart();
+    }
     live.load.tick(performance.now());
     const view = live.update();
     const quietMs = live.quietMs();
