@@ -30,9 +30,9 @@ export npm_config_audit := false
 # The page's lock must not contain registry addresses.
 export npm_config_omit_lockfile_registry_resolved := true
 
-# Number of test files in parallel. While some only wait for a server, the tests of the tracker beside them use the
-# processors. Each additional worker collects all tests again, and slows down the servers, which run in real time.
-WORKERS ?= 2
+# Number of test files in parallel, one more than processors: tests wait for their servers about as long as they compute.
+# Each additional worker collects all tests again, and slows down the servers, which run in real time.
+WORKERS ?= 3
 
 TRACKER_SOURCES := $(shell find tracker -name '*.py')
 # Folders are listed too, because their time changes when a file is deleted. The client of the API is generated.
