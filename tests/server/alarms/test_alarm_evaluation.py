@@ -1,11 +1,16 @@
 """Alarms are a function of their calls: a recorded state and the same later calls give the same alarms."""
 
+import pytest
+
 from server.alarms import AlarmService
 from server.alarms.evaluation import AlarmEvaluation, AlarmState, AlarmStep
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.recording_file import decoded_value, encoded_value
-from tracker.navigation.alarms import AlarmSnapshot
+from tests.server.texts.drilled_rod import concluded, seen_at, setup_of
+from tests.tracker.navigation.assessed import drill_reference
+from tracker.navigation import Assessment, FigureName, Status
+from tracker.navigation.alarms import AlarmInputHistory, AlarmSnapshot, alarm_inputs
 
 RUNNING = ProcessStatus(state=ProcessState.RUNNING)
 LOST = SourceStatus(name="camera 0", state=SourceState.RECONNECTING)
@@ -51,3 +56,23 @@ def test_a_state_does_not_change_with_the_alarms() -> None:
     before = encoded_value(states[0])
     service.request_hold(by="Ben")
     assert encoded_value(states[0]) == before
+
+
+def test_a_second_drill_at_no_wall_hides_no_risk_of_the_first() -> None:
+    stands = setup_of(("awl", "drill"))
+    places = {"awl": (30.0, 40.0, 0.0, 0.0, 0.0, 1.0), "drill": (30.0, 2.4, 0.0, 0.0, 0.0, 12.0)}
+    snapshot = concluded(
+        stands,
+        drill_reference(),
+        {name: seen_at(where, stands.tools[name]) for name, where in places.items()},
+        number=1,
+        captured_at_s=10.0,
+    )
+    inputs = alarm_inputs(snapshot, AlarmInputHistory(), now_s=10.0, fresh_s=0.5, put_away_after_s=5.0)
+    assessed = snapshot.assessments["drill"]
+    assert isinstance(assessed, Assessment)
+    risk = assessed.figures[FigureName.RISK]
+    assert risk.status is Status.OVER
+    assert inputs.breach_ratio == pytest.approx(risk.value / 100.0)
+    assert inputs.risk_site is not None
+    assert inputs.risk_site.tool == "drill"
