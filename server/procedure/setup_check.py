@@ -18,7 +18,6 @@ from server.procedure.plan import active_channel_document
 from server.procedure.registration.points import LANDMARK_SD_MM, MORE_LANDMARKS
 from server.procedure.registration_record import (
     RegistrationRecord,
-    registration_from_document,
     with_tip_in_common,
 )
 from server.procedure.state import SetupDefaults
@@ -164,9 +163,7 @@ class SetupChecker:
             if registered is None:
                 landmarks_mm = self._landmarks_mm(active, planned)
                 return check_of_landmarks(planned, landmarks_mm, self._catalogue, has_surface=has_surface)
-            record = registration_from_document(
-                registered, reference=self._defaults.reference, has_images=self._defaults.has_images
-            )
+            record = self._defaults.registration_from(registered)
             record = with_tip_in_common(record, registered, tools)
             return check_of_registration(
                 planned, record, self._known(tools), self._catalogue, has_surface=has_surface

@@ -29,7 +29,6 @@ from server.procedure.registration_record import (
     RegistrationRecord,
     check_from_document,
     check_name,
-    registration_from_document,
     with_tip_in_common,
 )
 from server.procedure.state import Procedure, SetupDefaults
@@ -168,9 +167,7 @@ class SetupPublisher:
                     ct_id = planned_ct_id(self._store, document)
                 elif document.kind is DocumentKind.REGISTRATION:
                     registered = with_tip_in_common(
-                        registration_from_document(
-                            document, reference=self._defaults.reference, has_images=self._defaults.has_images
-                        ),
+                        self._defaults.registration_from(document),
                         document,
                         [one for one in documents if one.kind is DocumentKind.TOOL],
                     )

@@ -15,7 +15,6 @@ from server.procedure.registration.context import RegistrationContext
 from server.procedure.registration_record import (
     RegistrationEvidence,
     RegistrationRecord,
-    registration_from_document,
 )
 from server.procedure.state import Procedure, SetupDefaults
 from server.store import CaseStore, Document, DocumentKind, Validity
@@ -70,9 +69,7 @@ class RegistrationRepository:
                 {"vertebra": name, "unregistered": name or "the vertebra of the active channel"},
             )
         return StoredRegistration(
-            record=registration_from_document(
-                document, reference=self._defaults.reference, has_images=self._defaults.has_images
-            ),
+            record=self._defaults.registration_from(document),
             document=document,
             validity=self._store.validity(document),
         )

@@ -61,6 +61,10 @@ class SetupDefaults:
     has_plan: bool = False
     tools: frozenset[str] = frozenset()
 
+    def registration_from(self, document: Document) -> RegistrationRecord:
+        """Parse a registration that is to be used with this setup; see `registration_from_document`."""
+        return registration_from_document(document, reference=self.reference, has_images=self.has_images)
+
 
 class Procedure:
     """Reads the state of the procedure. Thread-safe.
@@ -147,9 +151,7 @@ class Procedure:
         if document is None:
             return None
         try:
-            record = registration_from_document(
-                document, reference=self._defaults.reference, has_images=self._defaults.has_images
-            )
+            record = self._defaults.registration_from(document)
         except NavigationError:
             return None
         return confirmation_prompt(
@@ -272,9 +274,7 @@ class Procedure:
         if isinstance(found, Finding):
             return found
         try:
-            record = registration_from_document(
-                found, reference=self._defaults.reference, has_images=self._defaults.has_images
-            )
+            record = self._defaults.registration_from(found)
         except NavigationError as error:
             return _unusable(found, error)
         numbers = {
@@ -300,9 +300,7 @@ class Procedure:
         if vertebra is None or registration is None:
             return Finding(state=StepState.MISSING, reason=reason("NOTHING_TO_CHECK"))
         try:
-            record = registration_from_document(
-                registration, reference=self._defaults.reference, has_images=self._defaults.has_images
-            )
+            record = self._defaults.registration_from(registration)
         except NavigationError as error:
             return _unusable(registration, error)
         newest = self._store.newest_heading(case_id, DocumentKind.CHECK, check_name(vertebra))
