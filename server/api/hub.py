@@ -24,7 +24,7 @@ from server.clock import elapsed_s
 from server.config import Config
 from server.hub.connection import HubAddress, HubError
 from server.hub.opened import OpenedTheatres
-from server.hub.pictures import HEADER_LENGTH, picture_unpacked
+from server.hub.pictures import picture_packed, picture_unpacked
 from server.hub.relay import relayed
 from server.hub.requester import RequestLine, request_line
 from server.hub.requests import HubAnswer, HubRequest
@@ -408,7 +408,7 @@ async def _send_pictures(page: _Page) -> None:
         except TimeoutError:
             newest = page.hub.opened.newest(page.theatre)
             text = None if newest is None or newest.run != run else _text_of(newest)
-            frame = None if text is None else _frame(text, b"")
+            frame = None if text is None else picture_packed(text, b"")
         if frame is not None:
             page.requested.clear()
             await page.send(frame)
@@ -420,9 +420,4 @@ def _frame_of(picture: Received) -> bytes | None:
         text = relayed(live, picture.arrival, has_picture=True).text(now_s=elapsed_s())
     except ValueError:
         return None
-    return None if text is None else _frame(text, jpeg)
-
-
-def _frame(text: str, jpeg: bytes) -> bytes:
-    header = text.encode()
-    return b"".join((HEADER_LENGTH.pack(len(header)), header, jpeg))
+    return None if text is None else picture_packed(text, jpeg)
