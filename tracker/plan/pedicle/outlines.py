@@ -153,4 +153,4 @@ def _basis(rays: int) -> tuple[Array, Array]:
     for n in range(1, HARMONICS + 1):
         columns += [np.cos(n * angle), np.sin(n * angle)]
         ridge += 2 * [0.02 * rays * n**2 / 40.0]
-    return np.ascontiguousarray(np.stack(columns, axis=1)), np.array(ridge)
+    return np.stack(columns, axis=1), np.array(ridge)
