@@ -22,6 +22,15 @@ def session_router(people: PeopleService | None, *, is_hub: bool = False) -> API
     """Return the router of `/api/session`."""
     router = APIRouter(prefix="/api/session", tags=["people"])
 
+    def message(session: Session) -> SessionMessage:
+        return SessionMessage(
+            name=session.person.name,
+            role=session.person.role,
+            expires_at=session.expires_at,
+            sign_in_required=True,
+            is_hub=is_hub,
+        )
+
     @router.get("")
     async def who(request: Request) -> SessionMessage:
         """Return name, role and expiry of the session."""
@@ -34,13 +43,7 @@ def session_router(people: PeopleService | None, *, is_hub: bool = False) -> API
                 sign_in_required=False,
                 is_hub=is_hub,
             )
-        return SessionMessage(
-            name=session.person.name,
-            role=session.person.role,
-            expires_at=session.expires_at,
-            sign_in_required=True,
-            is_hub=is_hub,
-        )
+        return message(session)
 
     @router.post("", responses=rejections(408, 409, 422, 503))
     def enter(requested: EnterRequest, request: Request, response: Response) -> EnteredMessage:
@@ -62,12 +65,7 @@ def session_router(people: PeopleService | None, *, is_hub: bool = False) -> API
             cookie = cookie_header(request.scope, token.text, secure=secure, lasts_s=lasts_s)
             response.headers.append("Set-Cookie", cookie)
         return EnteredMessage(
-            name=session.person.name,
-            role=session.person.role,
-            expires_at=session.expires_at,
-            sign_in_required=True,
-            is_hub=is_hub,
-            token=token.text if session.for_machine else None,
+            **message(session).model_dump(), token=token.text if session.for_machine else None
         )
 
     @router.delete("", status_code=204, responses=rejections(409, 503))
